@@ -1,0 +1,156 @@
+//! The vocabulary of vectors and rotations: `glam`'s concrete types, and the few things it lacks.
+//!
+//! World positions are [`DVec3`]; velocities and rotations are stored in single precision ([`Vec3`], [`Quat`])
+//! and computed with in double precision wherever truth needs it. All frames are right-handed, y up;
+//! quaternions are `[x, y, z, w]`.
+//!
+//! The engine calls neither `sin` nor `cos` nor `exp` of the standard library, since those differ between
+//! platforms: the functions here use `+ − × ÷ √` in one fixed order and give the same bits everywhere.
+
+pub use glam::{DMat3, DQuat, DVec3, Quat, Vec3};
+
+/// A place and an orientation: `world = rotation · local + position`, in metres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pose {
+    /// Where the local origin lies.
+    pub position: DVec3,
+    /// Turns local directions into outer ones; unit length.
+    pub rotation: DQuat,
+}
+
+impl Pose {
+    /// The pose that changes nothing.
+    pub const IDENTITY: Pose = Pose { position: DVec3::ZERO, rotation: DQuat::IDENTITY };
+
+    /// A pose from its two parts.
+    pub fn new(position: DVec3, rotation: DQuat) -> Self {
+        Self { position, rotation }
+    }
+
+    /// The outer coordinates of a local point.
+    pub fn transform_point(&self, local: DVec3) -> DVec3 {
+        self.rotation * local + self.position
+    }
+
+    /// The local coordinates of an outer point.
+    pub fn inverse_transform_point(&self, outer: DVec3) -> DVec3 {
+        self.rotation.conjugate() * (outer - self.position)
+    }
+
+    /// `self` after `inner`: takes `inner`'s local coordinates to `self`'s outer ones.
+    pub fn then_local(&self, inner: &Pose) -> Pose {
+        Pose { position: self.transform_point(inner.position), rotation: self.rotation * inner.rotation }
+    }
+
+    /// The pose of `other` as seen from `self`.
+    pub fn relative(&self, other: &Pose) -> Pose {
+        Pose {
+            position: self.inverse_transform_point(other.position),
+            rotation: self.rotation.conjugate() * other.rotation,
+        }
+    }
+}
+
+/// `R · diagonal · Rᵀ`: a tensor given by its principal values, in the axes that `rotation` leads to.
+pub fn rotated_diagonal(rotation: DQuat, diagonal: DVec3) -> DMat3 {
+    let axes = DMat3::from_quat(rotation);
+    axes * DMat3::from_diagonal(diagonal) * axes.transpose()
+}
+
+/// Sine and cosine of `angle` (rad), |angle| at most about 10⁴, to a few units in the last place.
+///
+/// Reduction by quarter turns (Cody and Waite 1980), then Taylor series on |x| ≤ π/4.
+pub fn sin_cos(angle: f64) -> (f64, f64) {
+    const HALF_PI_HIGH: f64 = 1.570_796_326_734_125_6;
+    const HALF_PI_LOW: f64 = 6.077_100_506_506_192e-11;
+    let quarter = (angle * std::f64::consts::FRAC_2_PI).round();
+    let x = (angle - quarter * HALF_PI_HIGH) - quarter * HALF_PI_LOW;
+    let xx = x * x;
+    let mut sine = 1.0;
+    for n in [16.0, 14.0, 12.0, 10.0, 8.0, 6.0, 4.0, 2.0] {
+        sine = 1.0 - sine * xx / (n * (n + 1.0));
+    }
+    let mut cosine = 1.0;
+    for n in [17.0, 15.0, 13.0, 11.0, 9.0, 7.0, 5.0, 3.0, 1.0] {
+        cosine = 1.0 - cosine * xx / (n * (n + 1.0));
+    }
+    let sine = sine * x;
+    match (quarter as i64).rem_euclid(4) {
+        0 => (sine, cosine),
+        1 => (cosine, -sine),
+        2 => (-sine, -cosine),
+        _ => (-cosine, sine),
+    }
+}
+
+/// `(1 − e⁻ˣ)/x` for x ≥ 0: 1 at zero, to about 1e-15. The time that a damped motion still has, over the time that passes.
+///
+/// Taylor series after halving `x` below 1/4, then the doubling formula `φ(2x) = φ(x)(1 + e⁻ˣ)/2`.
+pub fn decay_fraction(x: f64) -> f64 {
+    let mut halvings = 0;
+    let mut small = x;
+    while small > 0.25 && halvings < 64 {
+        small *= 0.5;
+        halvings += 1;
+    }
+    let mut fraction = 1.0;
+    for n in [14.0, 13.0, 12.0, 11.0, 10.0, 9.0, 8.0, 7.0, 6.0, 5.0, 4.0, 3.0, 2.0] {
+        fraction = 1.0 - fraction * small / n;
+    }
+    for _ in 0..halvings {
+        fraction *= 0.5 * (2.0 - small * fraction);
+        small *= 2.0;
+    }
+    fraction
+}
+
+/// The rotation by `vector`: about its direction, by its length in radians.
+pub fn rotation_from_vector(vector: DVec3) -> DQuat {
+    let angle = vector.length();
+    if angle == 0.0 {
+        return DQuat::IDENTITY;
+    }
+    let (sine, cosine) = sin_cos(0.5 * angle);
+    let axis = vector * (sine / angle);
+    DQuat::from_xyzw(axis.x, axis.y, axis.z, cosine)
+}
+
+/// Some unit vector at right angles to the unit vector `normal`, the same one for the same bits.
+pub fn any_tangent(normal: DVec3) -> DVec3 {
+    let axis = if normal.x.abs() < 0.6 { DVec3::X } else { DVec3::Y };
+    normal.cross(axis).normalize()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sine_and_cosine_agree_with_the_standard_library() {
+        for k in -4000..4000 {
+            let angle = f64::from(k) * 0.013_37;
+            let (sine, cosine) = sin_cos(angle);
+            assert!((sine - angle.sin()).abs() < 1e-14, "{angle}");
+            assert!((cosine - angle.cos()).abs() < 1e-14, "{angle}");
+        }
+    }
+
+    #[test]
+    fn decay_fraction_agrees_with_exp_m1() {
+        assert_eq!(decay_fraction(0.0), 1.0);
+        for k in 1..400 {
+            let x = f64::from(k) * 0.05;
+            assert!((decay_fraction(x) + (-x).exp_m1() / x).abs() < 1e-14, "{x}");
+        }
+    }
+
+    #[test]
+    fn poses_compose_and_invert() {
+        let a = Pose::new(DVec3::new(1.0, 2.0, 3.0), rotation_from_vector(DVec3::new(0.3, -0.2, 0.9)));
+        let b = Pose::new(DVec3::new(-4.0, 0.5, 1.0), rotation_from_vector(DVec3::new(-1.0, 0.2, 0.1)));
+        let point = DVec3::new(0.1, 0.2, 0.3);
+        let there = a.then_local(&b).transform_point(point);
+        assert!((there - a.transform_point(b.transform_point(point))).length() < 1e-14);
+        assert!((a.relative(&a.then_local(&b)).position - b.position).length() < 1e-14);
+    }
+}
