@@ -1,5 +1,6 @@
 //! Carom: a 3D rigid-body physics engine. Fast, right, and able to explain every collision it resolves.
 
+pub mod conditions;
 pub mod impulse;
 pub mod math;
 

@@ -1,7 +1,8 @@
 //! What a step has to tell.
 
 use crate::bodies::BodyId;
-use crate::impulse::{Contact, Side, Velocity};
+use crate::conditions::{Hit, SINGLE};
+use crate::impulse::{Contact, Resolution, Side, Velocity, resolve};
 use crate::math::{DVec3, Pose};
 
 /// Where on a shape a contact lies.
@@ -58,4 +59,24 @@ pub struct Impact {
     pub together: u32,
     /// In which round of that instant this one was resolved, from 0.
     pub round: u32,
+}
+
+impl Impact {
+    /// The seed's five steps for this collision, in double precision.
+    pub fn resolve(&self) -> Resolution {
+        resolve(&self.side_a, &self.side_b, &self.contact)
+    }
+
+    /// The collision as the engine has carried it out, for [`conditions`](crate::conditions::conditions).
+    pub fn hit(&self) -> Hit {
+        Hit {
+            point: self.point,
+            contact: self.contact,
+            a: self.side_a,
+            b: self.side_b,
+            after_a: self.after_a,
+            after_b: self.after_b,
+            rounding: SINGLE,
+        }
+    }
 }
