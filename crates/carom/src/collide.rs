@@ -30,6 +30,11 @@ pub struct Manifold {
 }
 
 impl Manifold {
+    /// Moves the points.
+    pub(crate) fn shift(&mut self, by: DVec3) {
+        self.points[..self.count].iter_mut().for_each(|point| point.point += by);
+    }
+
     /// The points.
     pub fn points(&self) -> &[ContactPoint] {
         &self.points[..self.count]
