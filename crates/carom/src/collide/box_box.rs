@@ -71,7 +71,7 @@ pub(crate) fn manifold(a: &Cuboid, b: &Cuboid, margin: f64) -> Option<Manifold> 
             None
         }
     };
-    let tolerance = 1e3 * ROUNDING * pair.size();
+    let tolerance = 10.0 * ROUNDING * pair.size();
     let least = patch
         .iter()
         .flat_map(|patch| patch.points())
@@ -84,7 +84,7 @@ pub(crate) fn manifold(a: &Cuboid, b: &Cuboid, margin: f64) -> Option<Manifold> 
         let found = || Manifold::single(normal, point).placed(&a.pose);
         return (point.separation <= margin).then(found);
     }
-    let near = patch?.within(margin);
+    let near = patch?.leveled(axis.gap, tolerance).within(margin);
     (!near.points().is_empty()).then(|| Manifold::reduced(axis.normal, near.points()).placed(&a.pose))
 }
 
@@ -197,11 +197,8 @@ impl Pair {
         let (from_a, from_b) = (closest_edge(&self.a, &self.b), closest_edge(&self.b, &self.a));
         let found = if from_a.distance <= from_b.distance { from_a } else { from_b.flipped() };
         let sized = found.distance > 1e-9 * self.size();
-        let (normal, separation) = if sized {
-            ((found.on_b - found.on_a) / found.distance, found.distance)
-        } else {
-            (axis.normal, axis.gap)
-        };
+        let (normal, separation) =
+            if sized { (found.normal, found.distance) } else { (axis.normal, axis.gap) };
         let point = ContactPoint {
             point: 0.5 * (found.on_a + found.on_b),
             separation,
@@ -215,6 +212,8 @@ impl Pair {
 /// The closest points of two boxes.
 struct Closest {
     distance: f64,
+    /// Unit vector from `a` to `b`; zero where they touch.
+    normal: DVec3,
     on_a: DVec3,
     on_b: DVec3,
     feature_a: Feature,
@@ -225,6 +224,7 @@ impl Closest {
     fn flipped(self) -> Self {
         Self {
             distance: self.distance,
+            normal: -self.normal,
             on_a: self.on_b,
             on_b: self.on_a,
             feature_a: self.feature_b,
@@ -237,6 +237,7 @@ impl Closest {
 fn closest_edge(a: &Block, b: &Block) -> Closest {
     let mut best = Closest {
         distance: f64::INFINITY,
+        normal: DVec3::ZERO,
         on_a: DVec3::ZERO,
         on_b: DVec3::ZERO,
         feature_a: Feature::Surface,
@@ -255,8 +256,10 @@ fn closest_edge(a: &Block, b: &Block) -> Closest {
             if distance < best.distance {
                 let corner = if s > 0.0 { start | 1 << axis } else { start };
                 let at_end = 1.0 - s.abs() <= 1e-9;
+                let outward = offset.normalize_or_zero();
                 best = Closest {
                     distance,
+                    normal: -b.turn(outward),
                     on_a: b.place(local),
                     on_b: b.place(local - offset),
                     feature_a: if at_end {
@@ -264,7 +267,7 @@ fn closest_edge(a: &Block, b: &Block) -> Closest {
                     } else {
                         Feature::Edge(cuboid::edge_number(axis, start))
                     },
-                    feature_b: cuboid::feature_towards(offset.normalize_or_zero()),
+                    feature_b: cuboid::feature_towards(outward),
                 };
             }
         }

@@ -50,6 +50,16 @@ impl Overlap {
         &self.points[..self.count]
     }
 
+    /// The same contacts, with those that lie within `tolerance` of the least separation `least` given just that.
+    pub(crate) fn leveled(mut self, least: f64, tolerance: f64) -> Self {
+        for point in &mut self.points[..self.count] {
+            if point.separation <= least + tolerance {
+                point.separation = least;
+            }
+        }
+        self
+    }
+
     /// Those no further apart than `margin`, in the same order.
     pub(crate) fn within(mut self, margin: f64) -> Self {
         let mut kept = 0;
