@@ -19,7 +19,7 @@ pub struct ContactPoint {
 
 impl ContactPoint {
     /// Fills the places that hold no point.
-    const NONE: ContactPoint = ContactPoint {
+    pub(crate) const NONE: ContactPoint = ContactPoint {
         point: DVec3::ZERO,
         separation: 0.0,
         feature_a: Feature::Surface,
