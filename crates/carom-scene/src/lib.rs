@@ -13,6 +13,7 @@
 
 mod error;
 mod gltf;
+mod json;
 mod scene;
 
 pub use error::SceneError;
