@@ -37,3 +37,12 @@ fn the_folder_and_the_list_are_the_same() {
     names.sort_unstable();
     assert_eq!(files, names);
 }
+
+#[test]
+fn the_handle_spins_about_its_middle_axis() {
+    let scene = Scene::builtin("tumbling-handle").unwrap().unwrap();
+    let inertia = scene.bodies[0].collider_mass().inertia;
+    let (x, y, z) = (inertia.x_axis.x, inertia.y_axis.y, inertia.z_axis.z);
+    assert!(x < 0.9 * y && y < 0.9 * z, "{x} {y} {z}");
+    assert!(scene.bodies[0].angular_velocity.y > 100.0 * scene.bodies[0].angular_velocity.x);
+}

@@ -62,7 +62,7 @@ fn text_that_is_no_json_is_refused_with_line_and_column() {
         ("{ \"carom\": 1, \"bodies\": [], }", "line 1, column 29: trailing comma"),
         ("{ \"carom\": 1, \"bodies\": [] } x", "line 1, column 30: trailing characters"),
         ("{ 'carom': 1 }", "line 1, column 3: key must be a string"),
-        ("{ \"carom\": 01 }", "line 1, column 12: invalid number (in carom)"),
+        ("{ \"carom\": 01 }", "line 1, column 13: invalid number (in carom)"),
         ("{ \"carom\": yes }", "line 1, column 12: expected value (in carom)"),
         ("\"caf\u{e9}", "line 1, column 6: EOF while parsing a string"),
         ("carom: 1", "line 1, column 1: expected value"),

@@ -84,7 +84,7 @@ const CASES: &[Case] = &[
     Case(Ball, r#""motion": true"#, "bodies[1].motion", "true", "one of dynamic, static, kinematic"),
     Case(Ball, r#""position": [0, 0]"#, "bodies[1].position", "[0, 0]", "a list of 3 numbers [x, y, z]"),
     Case(Ball, r#""position": [0, -1.5e9, 0]"#, "bodies[1].position[1]", "-1.5e9", "a number from -1e9 to 1e9 m"),
-    Case(Ball, r#""rotation": [0, 0, 0, 1.01]"#, "bodies[1].rotation", "[0, 0, 0, 1.01]", "a unit quaternion [x, y, z, w], its length within 1e-3 of 1; this one's is 1.01"),
+    Case(Ball, r#""rotation": [0, 0, 0, 1.01]"#, "bodies[1].rotation", "[0, 0, 0, 1.01]", "a unit quaternion [x, y, z, w], its length within 0.001 of 1; this one's is 1.01"),
     Case(Ball, r#""rotation": [0, 0, 0, 0]"#, "bodies[1].rotation", "[0, 0, 0, 0]", "this one's is 0"),
     Case(Ball, r#""rotation": [0, 0, 0, 1e200]"#, "bodies[1].rotation", "[0, 0, 0, 1e200]", "a unit quaternion"),
     Case(Ball, r#""rotation": [0, 0, 1]"#, "bodies[1].rotation", "[0, 0, 1]", "a list of 4 numbers [x, y, z, w]"),
