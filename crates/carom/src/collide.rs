@@ -3,6 +3,8 @@
 //! Both questions take the shapes' poses in one common frame near both of them (the caller moves the origin there, so
 //! that nothing is lost far from the world's origin). The normal always points from `a` to `b`.
 
+mod parry;
+
 use crate::math::{DVec3, Pose};
 use crate::report::Feature;
 use crate::shape::Shape;
@@ -34,16 +36,27 @@ impl Manifold {
     pub fn points(&self) -> &[ContactPoint] {
         &self.points[..self.count]
     }
+
+    /// A manifold without points. `normal` is unit length and points from `a` to `b`.
+    pub(crate) fn new(normal: DVec3) -> Self {
+        let (feature_a, feature_b) = (Feature::Surface, Feature::Surface);
+        let none = ContactPoint { point: DVec3::ZERO, separation: 0.0, feature_a, feature_b };
+        Self { normal, points: [none; 4], count: 0 }
+    }
+
+    /// Adds a point; there must be room for it.
+    pub(crate) fn push(&mut self, point: ContactPoint) {
+        self.points[self.count] = point;
+        self.count += 1;
+    }
 }
 
 /// How far apart the shapes are, m: never more than their true distance, zero when they touch, negative when they overlap.
 pub fn separation(a: &Shape, pose_a: &Pose, b: &Shape, pose_b: &Pose) -> f64 {
-    let _ = (a, pose_a, b, pose_b);
-    unimplemented!()
+    parry::separation(a, pose_a, b, pose_b)
 }
 
 /// Appends the manifolds of all places where the surfaces are no further apart than `margin` (m).
 pub fn manifolds(a: (&Shape, &Pose), b: (&Shape, &Pose), margin: f64, out: &mut Vec<Manifold>) {
-    let _ = (a, b, margin, out);
-    unimplemented!()
+    parry::manifolds(a, b, margin, out);
 }
