@@ -1,24 +1,24 @@
-//! Against parry3d, in single precision, and against points sampled on the surfaces.
+//! Against parry, and against points sampled on the surfaces.
 
 use crate::support::{Kind, Random, gap, kinds, least, touch};
 use carom::Shape;
 use carom::math::{DVec3, Pose};
-use parry3d::math::{Pose as ParryPose, Vector};
-use parry3d::query;
-use parry3d::shape::SharedShape;
+use parry3d_f64::math::{Pose as ParryPose, Vector};
+use parry3d_f64::query;
+use parry3d_f64::shape::SharedShape;
 
 fn parry(shape: &(Shape, Pose)) -> (SharedShape, ParryPose) {
     let theirs = match shape.0 {
-        Shape::Sphere { radius } => SharedShape::ball(radius as f32),
-        Shape::Capsule { height, radius } => SharedShape::capsule_y(0.5 * height as f32, radius as f32),
+        Shape::Sphere { radius } => SharedShape::ball(radius),
+        Shape::Capsule { height, radius } => SharedShape::capsule_y(0.5 * height, radius),
         Shape::Cuboid { size } => {
-            let half = (0.5 * size).as_vec3();
+            let half = 0.5 * size;
             SharedShape::cuboid(half.x, half.y, half.z)
         }
         Shape::Plane => SharedShape::halfspace(Vector::Y),
         _ => unreachable!(),
     };
-    (theirs, ParryPose::from_parts(shape.1.position.as_vec3(), shape.1.rotation.as_quat()))
+    (theirs, ParryPose::from_parts(shape.1.position, shape.1.rotation))
 }
 
 /// The shape without the radius of a capsule, and that radius: their iteration stops early on capsules, several
@@ -26,7 +26,7 @@ fn parry(shape: &(Shape, Pose)) -> (SharedShape, ParryPose) {
 fn parry_core(shape: &(Shape, Pose)) -> (SharedShape, f64) {
     match shape.0 {
         Shape::Capsule { height, radius } => {
-            let end = Vector::Y * (0.5 * height as f32);
+            let end = Vector::Y * (0.5 * height);
             (SharedShape::segment(-end, end), radius)
         }
         _ => (parry(shape).0, 0.0),
@@ -50,7 +50,7 @@ fn distances_and_depths_agree_with_parry() {
             }
             let ((core_a, radius_a), (core_b, radius_b)) = (parry_core(&a), parry_core(&b));
             let cores = query::distance(&pose_a, &*core_a, &pose_b, &*core_b).unwrap().distance;
-            let theirs = f64::from(cores) - radius_a - radius_b;
+            let theirs = cores - radius_a - radius_b;
             if cores > 1e-3 {
                 apart += 1;
                 if kinds == (Kind::Cuboid, Kind::Cuboid) {
@@ -62,7 +62,7 @@ fn distances_and_depths_agree_with_parry() {
                 // Depths of spheres, capsules and planes have stricter tests of their own below.
                 overlapping += 1;
                 let contact = query::contact(&pose_a, &*core_a, &pose_b, &*core_b, 0.0).unwrap();
-                let theirs = f64::from(contact.expect("an overlap").dist);
+                let theirs = contact.expect("an overlap").dist;
                 assert!((ours - theirs).abs() < 2e-4, "{ours} {theirs} {a:?} {b:?}");
             }
         }
