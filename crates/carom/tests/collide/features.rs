@@ -224,6 +224,10 @@ fn box_on_box_turned_by_an_eighth() {
     let upper = at(cube(), [0.0, 0.999, 0.0], [0.0, FRAC_PI_4, 0.0]);
     let manifold = touch(&lower, &upper, 0.0).unwrap();
     assert_eq!(manifold.points().len(), 4);
+    // Every other corner of a regular octagon: a square of side 0.765.
+    for (i, p) in manifold.points().iter().enumerate() {
+        assert!(manifold.points()[..i].iter().all(|q| q.point.distance(p.point) > 0.7), "{manifold:?}");
+    }
     let spread = manifold.points().iter().fold(DVec3::ZERO, |sum, p| sum + p.point) / 4.0;
     assert!(spread.distance(DVec3::new(0.0, 0.4995, 0.0)) < 0.1, "{manifold:?}");
     for point in manifold.points() {
