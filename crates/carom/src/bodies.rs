@@ -1,6 +1,23 @@
 //! Storage of bodies.
+//!
+//! ```text
+//! BodyId ──► slot   cold: description, mass, colliders, what the user reads (BodyState)
+//!              │
+//!              └──► row   warm: RigidState, Constants, Influence, clock; one row for each body that can move
+//!                   row 0 = the world: infinite mass, at rest; every fixed body's row
+//! ```
+//!
+//! Slots are stable and named by ids; rows are dense, so a step walks them in order. An id carries the generation of
+//! its slot, hence an id of a removed body never names another one.
 
-use crate::math::{DVec3, Quat, Vec3};
+use crate::body::{Body, Motion};
+use crate::error::Invalid;
+use crate::filter::Filter;
+use crate::flight::{Constants, Influence, RigidState};
+use crate::mass::BodyMass;
+use crate::material::Material;
+use crate::math::{DQuat, DVec3, Pose, Quat, Vec3};
+use crate::shape::Shape;
 
 /// Names one body of one world, also after it has been removed: an id is never given twice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -10,10 +27,6 @@ pub struct BodyId {
 }
 
 impl BodyId {
-    pub(crate) fn new(index: u32, generation: u32) -> Self {
-        Self { index, generation }
-    }
-
     /// Place in the world's table; the order in which collisions are reported.
     pub fn index(self) -> usize {
         self.index as usize
@@ -23,10 +36,11 @@ impl BodyId {
 /// Where a body is and how it moves, as of the end of the last step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BodyState {
-    pub(crate) position: DVec3,
-    pub(crate) rotation: Quat,
-    pub(crate) linear_velocity: Vec3,
-    pub(crate) angular_velocity: Vec3,
+    position: DVec3,
+    rotation: Quat,
+    linear_velocity: Vec3,
+    angular_velocity: Vec3,
+    asleep: bool,
 }
 
 impl BodyState {
@@ -48,5 +62,361 @@ impl BodyState {
     /// Angular velocity in the world, rad/s.
     pub fn angular_velocity(&self) -> Vec3 {
         self.angular_velocity
+    }
+
+    /// Whether the body was put to sleep and nothing has woken it since.
+    pub fn is_asleep(&self) -> bool {
+        self.asleep
+    }
+}
+
+/// The row of everything that does not move.
+pub(crate) const WORLD_ROW: usize = 0;
+
+/// Why a body takes no part in the simulation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Activity {
+    /// It does take part.
+    Awake,
+    /// Put to sleep; a touch or a command wakes it.
+    Asleep,
+    /// Its description or its state is of no use.
+    Quarantined,
+}
+
+/// A body as the table keeps it.
+#[derive(Clone, Debug)]
+pub(crate) struct Record {
+    pub description: Body,
+    pub mass: BodyMass,
+    pub state: BodyState,
+    pub row: usize,
+    pub activity: Activity,
+    /// Keys into [`Bodies::colliders`].
+    pub colliders: Vec<u32>,
+    /// Pose of the centre of mass where it does not follow from a row.
+    pub fixed_pose: Pose,
+}
+
+/// A collider as the phases of a step use it.
+#[derive(Clone, Debug)]
+pub(crate) struct ColliderRow {
+    /// Slot and row of its body.
+    pub slot: u32,
+    pub row: usize,
+    /// Which of the body's colliders it is.
+    pub index: u32,
+    pub shape: Shape,
+    /// Where it sits relative to the body's centre of mass.
+    pub local: Pose,
+    /// Farthest point from the centre of mass, m.
+    pub reach: f64,
+    /// The same, but of what moves when the body turns: 0 for a ball around the centre of mass.
+    pub spin_reach: f64,
+    pub material: Material,
+    pub filter: Filter,
+    pub sensor: bool,
+}
+
+struct Slot {
+    generation: u32,
+    record: Option<Record>,
+}
+
+/// All bodies of a world.
+pub(crate) struct Bodies {
+    slots: Vec<Slot>,
+    free_slots: Vec<u32>,
+    /// Warm rows; row 0 is the world.
+    pub states: Vec<RigidState>,
+    pub constants: Vec<Constants>,
+    pub influences: Vec<Influence>,
+    /// Time within the present step up to which each row has been advanced, s.
+    pub clocks: Vec<f64>,
+    /// Force (N) and torque (N·m) that the user applies during the next step.
+    pub forces: Vec<(DVec3, DVec3)>,
+    /// The slot of each row.
+    pub slot_of_row: Vec<u32>,
+    colliders: Vec<Option<ColliderRow>>,
+    free_colliders: Vec<u32>,
+}
+
+impl Bodies {
+    pub fn new() -> Self {
+        Self {
+            slots: Vec::new(),
+            free_slots: Vec::new(),
+            states: vec![RigidState::REST],
+            constants: vec![Constants::WORLD],
+            influences: vec![Influence::default()],
+            clocks: vec![0.0],
+            forces: vec![(DVec3::ZERO, DVec3::ZERO)],
+            slot_of_row: vec![u32::MAX],
+            colliders: Vec::new(),
+            free_colliders: Vec::new(),
+        }
+    }
+
+    /// Adds a body; one whose description is of no use goes into quarantine, with the reason.
+    pub fn add(&mut self, description: Body) -> (BodyId, Result<(), Invalid>) {
+        let checked = description.check().and_then(|()| BodyMass::of(&description));
+        let (mass, activity, verdict) = match checked {
+            Ok(mass) => (mass, Activity::Awake, Ok(())),
+            Err(error) => (BodyMass::INFINITE, Activity::Quarantined, Err(error)),
+        };
+        let index = self.free_slots.pop().unwrap_or_else(|| {
+            self.slots.push(Slot { generation: 0, record: None });
+            (self.slots.len() - 1) as u32
+        });
+        let rotation = description.rotation.as_dquat().normalize();
+        let center = Pose::new(description.position + rotation * mass.center, rotation);
+        let takes_part = activity == Activity::Awake;
+        let row = if takes_part && description.motion != Motion::Fixed {
+            self.push_row(index, &description, &mass, center)
+        } else {
+            WORLD_ROW
+        };
+        let colliders = if takes_part {
+            (0..description.colliders.len())
+                .map(|collider| self.push_collider(index, row, collider, &description, &mass))
+                .collect()
+        } else {
+            Vec::new()
+        };
+        let state = BodyState {
+            position: description.position,
+            rotation: description.rotation,
+            linear_velocity: if row == WORLD_ROW { Vec3::ZERO } else { description.linear_velocity },
+            angular_velocity: if row == WORLD_ROW { Vec3::ZERO } else { description.angular_velocity },
+            asleep: false,
+        };
+        let slot = &mut self.slots[index as usize];
+        slot.record = Some(Record { description, mass, state, row, activity, colliders, fixed_pose: center });
+        (BodyId { index, generation: slot.generation }, verdict)
+    }
+
+    fn push_row(&mut self, slot: u32, description: &Body, mass: &BodyMass, center: Pose) -> usize {
+        let spin = description.angular_velocity.as_dvec3();
+        let mut constants = Constants::new(mass, center.rotation, spin);
+        if description.motion == Motion::Dynamic {
+            constants.linear_damping = description.linear_damping;
+            constants.angular_damping = description.angular_damping;
+            constants.gravity_factor = description.gravity_factor;
+        }
+        self.states.push(RigidState {
+            position: center.position,
+            rotation: center.rotation,
+            velocity: description.linear_velocity.as_dvec3(),
+            angular_momentum: constants.inertia(center.rotation) * spin,
+        });
+        self.constants.push(constants);
+        self.influences.push(Influence::default());
+        self.clocks.push(0.0);
+        self.forces.push((DVec3::ZERO, DVec3::ZERO));
+        self.slot_of_row.push(slot);
+        self.states.len() - 1
+    }
+
+    fn push_collider(
+        &mut self,
+        slot: u32,
+        row: usize,
+        index: usize,
+        description: &Body,
+        mass: &BodyMass,
+    ) -> u32 {
+        let collider = &description.colliders[index];
+        let local = Pose::new(collider.pose.position - mass.center, collider.pose.rotation.normalize());
+        let reach = collider.shape.reach(local.inverse_transform_point(DVec3::ZERO));
+        let spin_reach = match collider.shape {
+            Shape::Sphere { .. } => local.position.length(),
+            Shape::Plane => 0.0,
+            _ => reach,
+        };
+        let entry = ColliderRow {
+            slot,
+            row,
+            index: index as u32,
+            shape: collider.shape.clone(),
+            local,
+            reach,
+            spin_reach,
+            material: collider.material,
+            filter: collider.filter.clone(),
+            sensor: collider.sensor,
+        };
+        if let Some(key) = self.free_colliders.pop() {
+            self.colliders[key as usize] = Some(entry);
+            key
+        } else {
+            self.colliders.push(Some(entry));
+            (self.colliders.len() - 1) as u32
+        }
+    }
+
+    /// Removes a body with its colliders; returns what it was.
+    pub fn remove(&mut self, id: BodyId) -> Option<Record> {
+        self.get(id)?;
+        let slot = &mut self.slots[id.index()];
+        slot.generation += 1;
+        let record = slot.record.take()?;
+        self.free_slots.push(id.index);
+        self.drop_colliders(&record.colliders);
+        self.drop_row(record.row);
+        Some(record)
+    }
+
+    fn drop_colliders(&mut self, keys: &[u32]) {
+        for &key in keys {
+            self.colliders[key as usize] = None;
+            self.free_colliders.push(key);
+        }
+    }
+
+    fn drop_row(&mut self, row: usize) {
+        if row == WORLD_ROW {
+            return;
+        }
+        self.states.swap_remove(row);
+        self.constants.swap_remove(row);
+        self.influences.swap_remove(row);
+        self.clocks.swap_remove(row);
+        self.forces.swap_remove(row);
+        self.slot_of_row.swap_remove(row);
+        let Some(&moved) = self.slot_of_row.get(row) else { return };
+        if let Some(record) = &mut self.slots[moved as usize].record {
+            record.row = row;
+            for &key in &record.colliders {
+                if let Some(collider) = &mut self.colliders[key as usize] {
+                    collider.row = row;
+                }
+            }
+        }
+    }
+
+    /// Takes a body out of the simulation where it was last seen whole; returns the keys of its colliders.
+    pub fn quarantine(&mut self, slot: u32) -> Vec<u32> {
+        let Some(record) = self.slots[slot as usize].record.as_mut() else { return Vec::new() };
+        record.activity = Activity::Quarantined;
+        record.state.linear_velocity = Vec3::ZERO;
+        record.state.angular_velocity = Vec3::ZERO;
+        let colliders = std::mem::take(&mut record.colliders);
+        let row = std::mem::replace(&mut record.row, WORLD_ROW);
+        self.drop_colliders(&colliders);
+        self.drop_row(row);
+        colliders
+    }
+
+    pub fn get(&self, id: BodyId) -> Option<&Record> {
+        let slot = self.slots.get(id.index())?;
+        slot.record.as_ref().filter(|_| slot.generation == id.generation)
+    }
+
+    pub fn get_mut(&mut self, id: BodyId) -> Option<&mut Record> {
+        let slot = self.slots.get_mut(id.index())?;
+        slot.record.as_mut().filter(|_| slot.generation == id.generation)
+    }
+
+    /// The id of the body in a slot, if there is one.
+    pub fn id_of(&self, slot: u32) -> Option<BodyId> {
+        let entry = self.slots.get(slot as usize)?;
+        entry.record.as_ref().map(|_| BodyId { index: slot, generation: entry.generation })
+    }
+
+    pub fn record(&self, slot: u32) -> Option<&Record> {
+        self.slots.get(slot as usize)?.record.as_ref()
+    }
+
+    pub fn iter(&self) -> impl Iterator<Item = (BodyId, &Record)> {
+        self.slots.iter().enumerate().filter_map(|(index, slot)| {
+            let id = BodyId { index: index as u32, generation: slot.generation };
+            slot.record.as_ref().map(|record| (id, record))
+        })
+    }
+
+    /// Rows of bodies that can move: all but the world's.
+    pub fn rows(&self) -> std::ops::Range<usize> {
+        1..self.states.len()
+    }
+
+    pub fn collider(&self, key: u32) -> Option<&ColliderRow> {
+        self.colliders.get(key as usize)?.as_ref()
+    }
+
+    /// Where the centre of mass of a collider's body is now.
+    pub fn center_pose(&self, collider: &ColliderRow) -> Pose {
+        if collider.row == WORLD_ROW {
+            return self.record(collider.slot).map_or(Pose::IDENTITY, |record| record.fixed_pose);
+        }
+        let state = &self.states[collider.row];
+        Pose::new(state.position, state.rotation)
+    }
+
+    /// Writes what the user reads from the row.
+    pub fn publish(&mut self, row: usize) {
+        let state = self.states[row];
+        let angular = self.constants[row].angular_velocity(&state);
+        let Some(record) = self.slots[self.slot_of_row[row] as usize].record.as_mut() else { return };
+        record.state = BodyState {
+            position: state.position - state.rotation * record.mass.center,
+            rotation: state.rotation.as_quat(),
+            linear_velocity: state.velocity.as_vec3(),
+            angular_velocity: angular.as_vec3(),
+            asleep: record.activity == Activity::Asleep,
+        };
+    }
+
+    /// Gives the body of `row` another pose of its origin.
+    pub fn place(&mut self, slot: u32, position: DVec3, rotation: DQuat) {
+        let Some(record) = self.slots[slot as usize].record.as_mut() else { return };
+        let center = Pose::new(position + rotation * record.mass.center, rotation);
+        record.fixed_pose = center;
+        record.state.position = position;
+        record.state.rotation = rotation.as_quat();
+        let row = record.row;
+        if row != WORLD_ROW {
+            let spin = self.constants[row].angular_velocity(&self.states[row]);
+            self.states[row].position = center.position;
+            self.states[row].rotation = rotation;
+            self.spin(row, spin);
+        }
+    }
+
+    /// Gives a row another angular velocity (rad/s).
+    pub fn spin(&mut self, row: usize, angular_velocity: DVec3) {
+        let rotation = self.states[row].rotation;
+        self.constants[row].drive(rotation, angular_velocity);
+        self.states[row].angular_momentum = self.constants[row].inertia(rotation) * angular_velocity;
+    }
+
+    /// Wakes the body of a row; whether it was asleep.
+    pub fn wake(&mut self, row: usize) -> bool {
+        self.set_activity(row, Activity::Asleep, Activity::Awake)
+    }
+
+    /// Stops the body of a row and puts it to sleep; whether it was awake.
+    pub fn put_to_sleep(&mut self, row: usize) -> bool {
+        let slept = self.set_activity(row, Activity::Awake, Activity::Asleep);
+        if slept {
+            self.states[row].velocity = DVec3::ZERO;
+            self.spin(row, DVec3::ZERO);
+        }
+        slept
+    }
+
+    fn set_activity(&mut self, row: usize, from: Activity, to: Activity) -> bool {
+        let slot = self.slot_of_row.get(row).and_then(|&slot| self.slots.get_mut(slot as usize));
+        let Some(record) = slot.and_then(|slot| slot.record.as_mut()) else { return false };
+        let changes = record.activity == from;
+        if changes {
+            record.activity = to;
+            record.state.asleep = to == Activity::Asleep;
+        }
+        changes
+    }
+
+    pub fn is_asleep(&self, row: usize) -> bool {
+        row != WORLD_ROW
+            && self.record(self.slot_of_row[row]).is_some_and(|record| record.activity == Activity::Asleep)
     }
 }

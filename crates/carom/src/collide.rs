@@ -2,48 +2,108 @@
 //!
 //! Both questions take the shapes' poses in one common frame near both of them (the caller moves the origin there, so
 //! that nothing is lost far from the world's origin). The normal always points from `a` to `b`.
+//!
+//! Balls, capsules, cuboids and planes have kernels of their own, one file for each family of pairs:
+//!
+//! | | round | cuboid | plane |
+//! |---|---|---|---|
+//! | **round** (ball, capsule) | `round.rs` | `round_box.rs` | `plane.rs` |
+//! | **cuboid** | | `box_box.rs`, `clip.rs` | `plane.rs` |
+//! | **plane** | | | never touch |
+//!
+//! A round shape is a *core* (a point or a segment) and a radius, so its pairs reduce to the closest points of cores
+//! (`segment.rs`). All other pairs go through `parry.rs`.
 
-use crate::math::{DVec3, Pose};
-use crate::report::Feature;
+mod box_box;
+mod clip;
+mod cuboid;
+mod manifold;
+mod parry;
+mod plane;
+mod round;
+mod round_box;
+mod segment;
+
+pub use manifold::{ContactPoint, Manifold};
+
+use crate::math::Pose;
 use crate::shape::Shape;
+use cuboid::Cuboid;
+use plane::HalfSpace;
+use round::Round;
 
-/// One point of touch.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ContactPoint {
-    /// Midway between the two surfaces.
-    pub point: DVec3,
-    /// Distance of the surfaces along the normal, m; negative where they overlap.
-    pub separation: f64,
-    /// What of `a` touches.
-    pub feature_a: Feature,
-    /// What of `b` touches.
-    pub feature_b: Feature,
-}
+/// Lengths below this fraction of the shapes' own size are rounding: no direction is read from them.
+const ROUNDING: f64 = 1e-12;
 
-/// Up to four points that share a normal.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Manifold {
-    /// Unit vector from `a` to `b`.
-    pub normal: DVec3,
-    points: [ContactPoint; 4],
-    count: usize,
-}
+/// A normal this close to a face's (cosine, about 5.7°) may carry several points of that face.
+const FLAT: f64 = 0.995;
 
-impl Manifold {
-    /// The points.
-    pub fn points(&self) -> &[ContactPoint] {
-        &self.points[..self.count]
+/// How far apart the shapes are, m: never more than their true distance, zero when they touch, negative when they overlap.
+///
+/// Positive exactly if the shapes are disjoint. Where one of them is a ball, a capsule or a plane it is the true
+/// distance; for two cuboids the widest gap along fifteen axes, which falls short of the distance only where the
+/// closest features are two corners or a corner and an edge. Overlap is the length of the shortest way out of it
+/// (for two round shapes: along the line of their cores' closest points). Two planes are infinitely far apart.
+///
+/// Continuous in the poses, but for one case: two cuboids apart, corner to corner or corner to edge, whose edges turn
+/// through parallel. There it may jump between two positive lower bounds; its sign never does.
+pub fn separation(a: &Shape, pose_a: &Pose, b: &Shape, pose_b: &Pose) -> f64 {
+    use Placed::{Box, Plane, Round};
+    let (Some(placed_a), Some(placed_b)) = (Placed::new(a, pose_a), Placed::new(b, pose_b)) else {
+        return parry::separation(a, pose_a, b, pose_b);
+    };
+    match (&placed_a, &placed_b) {
+        (Round(a), Round(b)) => round::separation(a, b),
+        (Round(round), Box(cuboid)) | (Box(cuboid), Round(round)) => round_box::separation(round, cuboid),
+        (Round(round), Plane(plane)) | (Plane(plane), Round(round)) => plane::round_separation(round, plane),
+        (Box(a), Box(b)) => box_box::separation(a, b),
+        (Box(cuboid), Plane(plane)) | (Plane(plane), Box(cuboid)) => plane::box_separation(cuboid, plane),
+        (Plane(_), Plane(_)) => f64::INFINITY,
     }
 }
 
-/// How far apart the shapes are, m: never more than their true distance, zero when they touch, negative when they overlap.
-pub fn separation(a: &Shape, pose_a: &Pose, b: &Shape, pose_b: &Pose) -> f64 {
-    let _ = (a, pose_a, b, pose_b);
-    unimplemented!()
+/// Appends the manifolds of all places where the surfaces are no further apart than `margin` (m).
+///
+/// A pair of balls, capsules, cuboids and planes adds one manifold at most. The point of least separation is always
+/// among its points, and that separation is [`separation`]'s; only for two cuboids apart and closest at two corners
+/// or a corner and an edge may it be more, as that function is a lower bound there.
+///
+/// Where the geometry leaves the normal open (concentric balls, a ball's centre on a capsule's axis, capsules with
+/// overlapping axes) one fixed direction is taken, the same for the same poses.
+pub fn manifolds(a: (&Shape, &Pose), b: (&Shape, &Pose), margin: f64, out: &mut Vec<Manifold>) {
+    use Placed::{Box, Plane, Round};
+    let (Some(placed_a), Some(placed_b)) = (Placed::new(a.0, a.1), Placed::new(b.0, b.1)) else {
+        return parry::manifolds(a, b, margin, out);
+    };
+    out.extend(match (&placed_a, &placed_b) {
+        (Round(a), Round(b)) => round::manifold(a, b, margin),
+        (Round(round), Box(cuboid)) => round_box::manifold(round, cuboid, margin),
+        (Box(cuboid), Round(round)) => round_box::manifold(round, cuboid, margin).map(|m| m.flipped()),
+        (Round(round), Plane(plane)) => plane::round_manifold(round, plane, margin),
+        (Plane(plane), Round(round)) => plane::round_manifold(round, plane, margin).map(|m| m.flipped()),
+        (Box(a), Box(b)) => box_box::manifold(a, b, margin),
+        (Box(cuboid), Plane(plane)) => plane::box_manifold(cuboid, plane, margin),
+        (Plane(plane), Box(cuboid)) => plane::box_manifold(cuboid, plane, margin).map(|m| m.flipped()),
+        (Plane(_), Plane(_)) => None,
+    });
 }
 
-/// Appends the manifolds of all places where the surfaces are no further apart than `margin` (m).
-pub fn manifolds(a: (&Shape, &Pose), b: (&Shape, &Pose), margin: f64, out: &mut Vec<Manifold>) {
-    let _ = (a, b, margin, out);
-    unimplemented!()
+/// A shape that has kernels of its own, put in its place.
+enum Placed {
+    Round(Round),
+    Box(Cuboid),
+    Plane(HalfSpace),
+}
+
+impl Placed {
+    /// `None` for the shapes that go through parry.
+    fn new(shape: &Shape, pose: &Pose) -> Option<Self> {
+        match *shape {
+            Shape::Sphere { radius } => Some(Placed::Round(Round::ball(pose, radius))),
+            Shape::Capsule { height, radius } => Some(Placed::Round(Round::capsule(pose, height, radius))),
+            Shape::Cuboid { size } => Some(Placed::Box(Cuboid { half: 0.5 * size, pose: *pose })),
+            Shape::Plane => Some(Placed::Plane(HalfSpace::new(pose))),
+            _ => None,
+        }
+    }
 }

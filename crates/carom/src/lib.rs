@@ -9,12 +9,16 @@ mod body;
 pub mod collide;
 mod error;
 mod filter;
+mod flight;
 pub mod hull;
+mod impacts;
 pub mod mass;
 mod material;
 pub mod mesh;
 pub mod report;
 mod shape;
+mod solver;
+mod step;
 mod world;
 
 pub use bodies::{BodyId, BodyState};
@@ -22,8 +26,9 @@ pub use body::{Body, Collider, Motion, PrincipalInertia};
 pub use error::{Invalid, limits};
 pub use filter::{Accepts, Filter, Groups};
 pub use material::{Combine, Material, Surface};
+pub use report::{Impact, Overlap, StepReport};
 pub use shape::Shape;
-pub use world::{Energy, Momentum, Settings, StepReport, World};
+pub use world::{BodyMut, Energy, Momentum, Settings, World};
 
 /// What most programs need.
 pub mod prelude {

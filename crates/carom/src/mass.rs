@@ -82,6 +82,11 @@ impl BodyMass {
         principal_rotation: DQuat::IDENTITY,
     };
 
+    /// Inverse principal moments, 1/(kg·m²): 0 where infinite.
+    pub fn inverse_moments(&self) -> DVec3 {
+        self.moments.map(|moment| if moment.is_finite() { 1.0 / moment } else { 0.0 })
+    }
+
     /// The mass of a dynamic body: its colliders', with what the body says of its own in place of theirs.
     ///
     /// # Errors

@@ -57,6 +57,19 @@ pub fn rotated_diagonal(rotation: DQuat, diagonal: DVec3) -> DMat3 {
     axes * DMat3::from_diagonal(diagonal) * axes.transpose()
 }
 
+/// 1/n! for n from 0 to 17.
+const INVERSE_FACTORIALS: [f64; 18] = {
+    let mut table = [1.0; 18];
+    let mut factorial = 1.0;
+    let mut n = 1;
+    while n < 18 {
+        factorial *= n as f64;
+        table[n] = 1.0 / factorial;
+        n += 1;
+    }
+    table
+};
+
 /// Sine and cosine of `angle` (rad), |angle| at most about 10⁴, to a few units in the last place.
 ///
 /// Reduction by quarter turns (Cody and Waite 1980), then Taylor series on |x| ≤ π/4.
@@ -66,15 +79,12 @@ pub fn sin_cos(angle: f64) -> (f64, f64) {
     let quarter = (angle * std::f64::consts::FRAC_2_PI).round();
     let x = (angle - quarter * HALF_PI_HIGH) - quarter * HALF_PI_LOW;
     let xx = x * x;
-    let mut sine = 1.0;
-    for n in [16.0, 14.0, 12.0, 10.0, 8.0, 6.0, 4.0, 2.0] {
-        sine = 1.0 - sine * xx / (n * (n + 1.0));
+    let (mut sine, mut cosine) = (0.0, 0.0);
+    for n in (0..9).rev() {
+        sine = INVERSE_FACTORIALS[2 * n + 1] - sine * xx;
+        cosine = INVERSE_FACTORIALS[2 * n] - cosine * xx;
     }
-    let mut cosine = 1.0;
-    for n in [17.0, 15.0, 13.0, 11.0, 9.0, 7.0, 5.0, 3.0, 1.0] {
-        cosine = 1.0 - cosine * xx / (n * (n + 1.0));
-    }
-    let sine = sine * x;
+    sine *= x;
     match (quarter as i64).rem_euclid(4) {
         0 => (sine, cosine),
         1 => (cosine, -sine),

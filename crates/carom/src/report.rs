@@ -18,6 +18,81 @@ pub enum Feature {
     Face(u32),
 }
 
+/// A collider that overlaps a sensor at the end of a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Overlap {
+    /// The body with the sensor.
+    pub sensor: BodyId,
+    /// Which of its colliders.
+    pub sensor_collider: u32,
+    /// The body that is in it.
+    pub visitor: BodyId,
+    /// Which of its colliders.
+    pub visitor_collider: u32,
+}
+
+/// What happened in a step.
+#[derive(Clone, Debug, Default)]
+pub struct StepReport {
+    pub(crate) impacts: Vec<Impact>,
+    pub(crate) overlaps: Vec<Overlap>,
+    pub(crate) quarantined: Vec<BodyId>,
+    pub(crate) contacts: usize,
+}
+
+impl StepReport {
+    /// The collisions, ordered by (time, a, b).
+    pub fn impacts(&self) -> &[Impact] {
+        &self.impacts
+    }
+
+    /// What overlaps sensors at the end of the step.
+    pub fn overlaps(&self) -> &[Overlap] {
+        &self.overlaps
+    }
+
+    /// How many pairs of bodies touch at the end of the step.
+    pub fn contacts(&self) -> usize {
+        self.contacts
+    }
+
+    /// Bodies taken out of the simulation in this step, since their state was no longer finite or never was valid.
+    pub fn quarantined(&self) -> &[BodyId] {
+        &self.quarantined
+    }
+
+    /// Takes the impacts of a step that began at `start`: dates them, puts them in order, and counts those of one
+    /// instant that share bodies.
+    pub(crate) fn record(&mut self, mut impacts: Vec<Impact>, start: f64) {
+        let mut first = 0;
+        while first < impacts.len() {
+            let instant = impacts[first].time;
+            let count = impacts[first..].iter().take_while(|impact| impact.time == instant).count();
+            number_rounds(&mut impacts[first..first + count]);
+            first += count;
+        }
+        impacts.sort_by(|x, y| x.time.total_cmp(&y.time).then((x.a, x.b, x.round).cmp(&(y.a, y.b, y.round))));
+        for impact in &mut impacts {
+            impact.time += start;
+        }
+        self.impacts = impacts;
+    }
+}
+
+/// Impacts of one instant, in the order in which they were resolved: each comes a round later than those before it that
+/// share a body with it.
+fn number_rounds(impacts: &mut [Impact]) {
+    for index in 0..impacts.len() {
+        let shares = |other: &Impact, this: &Impact| {
+            [other.a, other.b].iter().any(|body| *body == this.a || *body == this.b)
+        };
+        let this = &impacts[index];
+        let before = impacts[..index].iter().filter(|other| shares(other, this));
+        let round = before.map(|other| other.round + 1).max().unwrap_or(0);
+        impacts[index].round = round;
+    }
+}
+
 /// A collision that was resolved: a first touch of two bodies that closed faster than the rest threshold.
 ///
 /// Holds all that the seed's formula needs, so that [`Impact::resolve`] gives its five steps again.
@@ -25,7 +100,7 @@ pub enum Feature {
 pub struct Impact {
     /// Simulated time at which it happened, s.
     pub time: f64,
-    /// The body that joined the world before `b` (by index).
+    /// The body of the lower index: in a scene, the one that is listed first.
     pub a: BodyId,
     /// The other body.
     pub b: BodyId,
@@ -78,5 +153,23 @@ impl Impact {
             after_b: self.after_b,
             rounding: SINGLE,
         }
+    }
+}
+
+/// One line: when, where, how fast, and with which impulse.
+impl std::fmt::Display for Impact {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Resolution { closing_speed, fraction, separating_speed, .. } = self.resolve();
+        let [x, y, z] = self.point.to_array();
+        write!(
+            f,
+            "{:.6} s: body {} and body {} at ({x:.4}, {y:.4}, {z:.4}) m close with {:.6} m/s; C_r = {}, f = {fraction:.6} N·s; \
+             they part with {separating_speed:.6} m/s",
+            self.time,
+            self.a.index(),
+            self.b.index(),
+            -closing_speed,
+            self.contact.restitution,
+        )
     }
 }

@@ -1,17 +1,21 @@
 //! The world: bodies, and the law that moves them.
 
-use crate::bodies::{BodyId, BodyState};
-use crate::body::Body;
+use crate::bodies::{Activity, Bodies, BodyId, BodyState, WORLD_ROW};
+use crate::body::{Body, Motion};
 use crate::error::Invalid;
+use crate::mass::BodyMass;
 use crate::math::DVec3;
-use crate::report::Impact;
+use crate::report::StepReport;
+use crate::step::broad_phase::BroadPhase;
+use crate::step::rest::Resting;
 
 /// What holds for the whole world.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
     /// Acceleration of gravity, m/s².
     pub gravity: DVec3,
-    /// Into how many parts a step divides for what rests and for the rest threshold.
+    /// Into how many substeps a step divides for what rests. The rest threshold is the speed `½ a h` that the
+    /// acceleration `a`, which presses two bodies together, takes away in half a substep `h`.
     pub substeps: u32,
 }
 
@@ -33,14 +37,39 @@ pub struct Energy {
 /// Momentum of the dynamic bodies.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Momentum {
-    /// `Σ m v`, kg·m/s.
+    /// `Σ m v`, N·s.
     pub linear: DVec3,
-    /// `Σ x × m v + L` about the world's origin, kg·m²/s.
+    /// `Σ x × m v + L` about the world's origin, N·m·s.
     pub angular: DVec3,
 }
 
 /// Bodies and the law that moves them.
-pub struct World {}
+///
+/// ```
+/// use carom::prelude::*;
+///
+/// let mut world = World::new(); // gravity 9.81 m/s² down
+/// world.add(Body::fixed().with(Shape::cuboid(100.0, 2.0, 100.0)));
+/// let ball = world.add(Body::dynamic().at(0.0, 4.0, 0.0).with(Shape::sphere(0.5)).restitution(0.8));
+/// for _ in 0..60 {
+///     let report = world.step(1.0 / 60.0);
+///     for hit in report.impacts() {
+///         println!("{hit}");
+///     }
+/// }
+/// assert!(world[ball].position().y > 1.5);
+/// ```
+pub struct World {
+    pub(crate) settings: Settings,
+    pub(crate) bodies: Bodies,
+    pub(crate) broad_phase: BroadPhase,
+    pub(crate) resting: Resting,
+    pub(crate) report: StepReport,
+    /// Bodies refused since the last step.
+    refused: Vec<BodyId>,
+    pub(crate) time: f64,
+    pub(crate) steps: u64,
+}
 
 impl World {
     /// An empty world with gravity 9.81 m/s² downwards.
@@ -49,72 +78,168 @@ impl World {
     }
 
     /// An empty world.
-    pub fn with_settings(_settings: Settings) -> Self {
-        unimplemented!()
+    pub fn with_settings(settings: Settings) -> Self {
+        Self {
+            settings,
+            bodies: Bodies::new(),
+            broad_phase: BroadPhase::new(),
+            resting: Resting::default(),
+            report: StepReport::default(),
+            refused: Vec::new(),
+            time: 0.0,
+            steps: 0,
+        }
+    }
+
+    /// What holds for the whole world.
+    pub fn settings(&self) -> &Settings {
+        &self.settings
     }
 
     /// Adds a body.
     ///
     /// # Errors
-    /// Names the first field that no body can have.
-    pub fn try_add(&mut self, _body: Body) -> Result<BodyId, Invalid> {
-        unimplemented!()
+    /// Names the first field that no body can have; nothing is added then.
+    pub fn try_add(&mut self, body: Body) -> Result<BodyId, Invalid> {
+        let (id, verdict) = self.bodies.add(body);
+        if let Err(error) = verdict {
+            self.bodies.remove(id);
+            return Err(error);
+        }
+        self.enlist(id);
+        Ok(id)
     }
 
     /// Adds a body. One that [`World::try_add`] would refuse is kept in quarantine: it takes no part, and the next
     /// report names it.
-    pub fn add(&mut self, _body: Body) -> BodyId {
-        unimplemented!()
+    pub fn add(&mut self, body: Body) -> BodyId {
+        let (id, verdict) = self.bodies.add(body);
+        match verdict {
+            Ok(()) => self.enlist(id),
+            Err(_) => self.refused.push(id),
+        }
+        id
+    }
+
+    fn enlist(&mut self, id: BodyId) {
+        let keys = self.bodies.get(id).map_or(Vec::new(), |record| record.colliders.clone());
+        for key in keys {
+            self.broad_phase.insert(&self.bodies, key);
+        }
     }
 
     /// Removes a body; whether it was there.
-    pub fn remove(&mut self, _id: BodyId) -> bool {
-        unimplemented!()
+    pub fn remove(&mut self, id: BodyId) -> bool {
+        let Some(record) = self.bodies.remove(id) else { return false };
+        for key in record.colliders {
+            self.forget_collider(key);
+        }
+        true
+    }
+
+    pub(crate) fn forget_collider(&mut self, key: u32) {
+        self.broad_phase.remove(key);
+        self.resting.retain(|(a, b)| a != key && b != key);
     }
 
     /// Where the body is and how it moves, if it is there.
-    pub fn body(&self, _id: BodyId) -> Option<&BodyState> {
-        unimplemented!()
+    pub fn body(&self, id: BodyId) -> Option<&BodyState> {
+        self.bodies.get(id).map(|record| &record.state)
+    }
+
+    /// Access to change how the body moves, if it is there.
+    pub fn body_mut(&mut self, id: BodyId) -> Option<BodyMut<'_>> {
+        self.bodies.get(id)?;
+        Some(BodyMut { world: self, id })
     }
 
     /// What the body was made from, if it is there.
-    pub fn description(&self, _id: BodyId) -> Option<&Body> {
-        unimplemented!()
+    pub fn description(&self, id: BodyId) -> Option<&Body> {
+        self.bodies.get(id).map(|record| &record.description)
     }
 
-    /// Mass properties as used (mass infinite where it is; inertia in the body's frame), if it is there.
-    pub fn mass_of(&self, _id: BodyId) -> Option<&crate::mass::BodyMass> {
-        unimplemented!()
+    /// Mass properties as used (infinite where nothing moves it), if it is there.
+    pub fn mass_of(&self, id: BodyId) -> Option<&BodyMass> {
+        self.bodies.get(id).map(|record| &record.mass)
     }
 
     /// All bodies, in the order of their ids.
     pub fn bodies(&self) -> impl Iterator<Item = (BodyId, &BodyState)> {
-        std::iter::empty()
+        self.bodies.iter().map(|(id, record)| (id, &record.state))
     }
 
     /// Simulated time since the start, s.
     pub fn time(&self) -> f64 {
-        unimplemented!()
+        self.time
     }
 
-    /// The energy of the dynamic bodies.
+    /// Dynamic bodies of finite mass or inertia, with the rows they are in.
+    fn dynamic_rows(&self) -> impl Iterator<Item = (usize, &BodyMass)> {
+        self.bodies.iter().filter_map(|(_, record)| {
+            let counts = record.row != WORLD_ROW && record.description.motion == Motion::Dynamic;
+            counts.then_some((record.row, &record.mass))
+        })
+    }
+
+    /// The energy of the dynamic bodies. Infinite masses and inertias take no part.
     pub fn energy(&self) -> Energy {
-        unimplemented!()
+        let mut energy = Energy::default();
+        for (row, mass) in self.dynamic_rows() {
+            let (state, constants) = (&self.bodies.states[row], &self.bodies.constants[row]);
+            let turning = constants.inverse_inertia(state.rotation) * state.angular_momentum;
+            energy.kinetic += 0.5 * turning.dot(state.angular_momentum);
+            if mass.mass.is_finite() {
+                energy.kinetic += 0.5 * mass.mass * state.velocity.length_squared();
+                let pull = mass.mass * constants.gravity_factor * self.settings.gravity;
+                energy.potential -= pull.dot(state.position);
+            }
+        }
+        energy
     }
 
-    /// The momentum of the dynamic bodies.
+    /// The momentum of the dynamic bodies. Infinite masses take no part.
     pub fn momentum(&self) -> Momentum {
-        unimplemented!()
+        let mut momentum = Momentum::default();
+        for (row, mass) in self.dynamic_rows() {
+            let state = &self.bodies.states[row];
+            momentum.angular += state.angular_momentum;
+            if mass.mass.is_finite() {
+                let linear = mass.mass * state.velocity;
+                momentum.linear += linear;
+                momentum.angular += state.position.cross(linear);
+            }
+        }
+        momentum
     }
 
-    /// A hash of the whole state: the same for the same bits.
+    /// A hash (FNV-1a, 64 bits) of the state of all bodies that move: the same for the same bits.
     pub fn state_hash(&self) -> u64 {
-        unimplemented!()
+        let mut hash = 0xcbf2_9ce4_8422_2325_u64;
+        let mut eat = |value: f64| {
+            for byte in value.to_bits().to_le_bytes() {
+                hash = (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+            }
+        };
+        for (id, record) in self.bodies.iter().filter(|(_, record)| record.row != WORLD_ROW) {
+            let state = &self.bodies.states[record.row];
+            eat(id.index() as f64);
+            state.position.to_array().into_iter().for_each(&mut eat);
+            state.rotation.to_array().into_iter().for_each(&mut eat);
+            state.velocity.to_array().into_iter().for_each(&mut eat);
+            state.angular_momentum.to_array().into_iter().for_each(&mut eat);
+        }
+        hash
     }
 
-    /// Lets `dt` seconds pass.
-    pub fn step(&mut self, _dt: f64) -> StepReport<'_> {
-        unimplemented!()
+    /// Lets `dt` seconds pass. Does nothing if `dt` is not a positive finite number.
+    pub fn step(&mut self, dt: f64) -> &StepReport {
+        if dt > 0.0 && dt.is_finite() {
+            crate::step::step(self, dt);
+        } else {
+            self.report = StepReport::default();
+        }
+        self.report.quarantined.append(&mut self.refused);
+        &self.report
     }
 }
 
@@ -124,24 +249,187 @@ impl Default for World {
     }
 }
 
-/// What happened in a step.
-pub struct StepReport<'world> {
-    world: &'world World,
+impl std::ops::Index<BodyId> for World {
+    type Output = BodyState;
+
+    /// Where the body is and how it moves.
+    ///
+    /// # Panics
+    /// If the body has been removed; [`World::body`] asks first.
+    fn index(&self, id: BodyId) -> &BodyState {
+        self.body(id).expect("the body is in this world; World::body tells whether it still is")
+    }
 }
 
-impl StepReport<'_> {
-    /// The collisions, ordered by (time, a, b).
-    pub fn impacts(&self) -> &[Impact] {
-        unimplemented!()
+/// Commands to one body. Each wakes it; values that are not finite are refused and change nothing.
+pub struct BodyMut<'world> {
+    world: &'world mut World,
+    id: BodyId,
+}
+
+impl BodyMut<'_> {
+    /// The body's row, awake; the world's row if nothing can move it.
+    fn wake_row(&mut self) -> usize {
+        let row = self.world.bodies.get(self.id).map_or(WORLD_ROW, |record| record.row);
+        self.world.bodies.wake(row);
+        row
     }
 
-    /// How many pairs of bodies touch at the end of the step.
-    pub fn contacts(&self) -> usize {
-        unimplemented!()
+    fn finite(field: &str, value: DVec3) -> Result<DVec3, Invalid> {
+        if value.is_finite() {
+            return Ok(value);
+        }
+        Err(Invalid::new(field, value, "three finite numbers"))
     }
 
-    /// Bodies taken out of the simulation in this step, since their state was no longer finite or never was valid.
-    pub fn quarantined(&self) -> &[BodyId] {
-        unimplemented!()
+    /// Pushes at the centre of mass during the whole next step (N). Adds to other forces.
+    ///
+    /// # Errors
+    /// If the force is not finite.
+    pub fn add_force(&mut self, force: DVec3) -> Result<(), Invalid> {
+        let force = Self::finite("force", force)?;
+        let row = self.wake_row();
+        self.world.bodies.forces[row].0 += force;
+        Ok(())
+    }
+
+    /// Pushes at a point of the world (m) during the whole next step (N).
+    ///
+    /// # Errors
+    /// If force or point is not finite.
+    pub fn add_force_at(&mut self, force: DVec3, point: DVec3) -> Result<(), Invalid> {
+        let (force, point) = (Self::finite("force", force)?, Self::finite("point", point)?);
+        let row = self.wake_row();
+        let arm = point - self.world.bodies.states[row].position;
+        self.world.bodies.forces[row].0 += force;
+        self.world.bodies.forces[row].1 += arm.cross(force);
+        Ok(())
+    }
+
+    /// Turns about the centre of mass during the whole next step (N·m, world axes).
+    ///
+    /// # Errors
+    /// If the torque is not finite.
+    pub fn add_torque(&mut self, torque: DVec3) -> Result<(), Invalid> {
+        let torque = Self::finite("torque", torque)?;
+        let row = self.wake_row();
+        self.world.bodies.forces[row].1 += torque;
+        Ok(())
+    }
+
+    /// Strikes at a point of the world (m), now (N·s).
+    ///
+    /// # Errors
+    /// If impulse or point is not finite.
+    pub fn apply_impulse_at(&mut self, impulse: DVec3, point: DVec3) -> Result<(), Invalid> {
+        let (impulse, point) = (Self::finite("impulse", impulse)?, Self::finite("point", point)?);
+        let row = self.wake_row();
+        let arm = point - self.world.bodies.states[row].position;
+        crate::impacts::strike::push(&mut self.world.bodies, row, arm, impulse);
+        self.publish(row);
+        Ok(())
+    }
+
+    /// Strikes at the centre of mass, now (N·s).
+    ///
+    /// # Errors
+    /// If the impulse is not finite.
+    pub fn apply_impulse(&mut self, impulse: DVec3) -> Result<(), Invalid> {
+        let row = self.wake_row();
+        self.apply_impulse_at(impulse, self.world.bodies.states[row].position)
+    }
+
+    /// Changes the angular momentum, now (N·m·s, world axes).
+    ///
+    /// # Errors
+    /// If the impulse is not finite.
+    pub fn apply_angular_impulse(&mut self, impulse: DVec3) -> Result<(), Invalid> {
+        let impulse = Self::finite("impulse", impulse)?;
+        let row = self.wake_row();
+        if self.world.bodies.constants[row].is_movable() {
+            self.world.bodies.states[row].angular_momentum += impulse;
+        }
+        self.publish(row);
+        Ok(())
+    }
+
+    /// Sets the velocity of the centre of mass (m/s). Fixed bodies stay where they are.
+    ///
+    /// # Errors
+    /// If the velocity is not finite.
+    pub fn set_linear_velocity(&mut self, velocity: DVec3) -> Result<(), Invalid> {
+        let velocity = Self::finite("linear_velocity", velocity)?;
+        let row = self.wake_row();
+        if row != WORLD_ROW {
+            self.world.bodies.states[row].velocity = velocity;
+        }
+        self.publish(row);
+        Ok(())
+    }
+
+    /// Sets the angular velocity (rad/s). Fixed bodies stay as they are.
+    ///
+    /// # Errors
+    /// If the velocity is not finite.
+    pub fn set_angular_velocity(&mut self, velocity: DVec3) -> Result<(), Invalid> {
+        let velocity = Self::finite("angular_velocity", velocity)?;
+        let row = self.wake_row();
+        if row != WORLD_ROW {
+            self.world.bodies.spin(row, velocity);
+        }
+        self.publish(row);
+        Ok(())
+    }
+
+    /// Puts the body's origin elsewhere (m), at once and through whatever is between; its velocities stay.
+    ///
+    /// # Errors
+    /// If position or rotation is not finite, or the rotation has no length.
+    pub fn teleport(&mut self, position: DVec3, rotation: crate::math::DQuat) -> Result<(), Invalid> {
+        let position = Self::finite("position", position)?;
+        if !rotation.is_finite() || rotation.length_squared() < 1e-12 {
+            return Err(Invalid::new("rotation", rotation, "a unit quaternion [x, y, z, w]"));
+        }
+        let row = self.wake_row();
+        let (id, world) = (self.id, &mut *self.world);
+        world.bodies.place(id.index() as u32, position, rotation.normalize());
+        let keys = world.bodies.get(id).map_or(Vec::new(), |record| record.colliders.clone());
+        for &key in &keys {
+            world.forget_collider(key);
+        }
+        world.enlist(id);
+        self.publish(row);
+        Ok(())
+    }
+
+    /// Wakes the body.
+    pub fn wake(&mut self) {
+        self.wake_row();
+    }
+
+    /// Stops the body and lets it stand, without gravity, until something touches it or a command wakes it.
+    pub fn put_to_sleep(&mut self) {
+        let row = self.wake_row();
+        if self.world.bodies.put_to_sleep(row) {
+            self.publish(row);
+        }
+    }
+
+    /// Sets what you have stored with the body.
+    pub fn set_user_data(&mut self, user_data: u64) {
+        if let Some(record) = self.world.bodies.get_mut(self.id) {
+            record.description.user_data = user_data;
+        }
+    }
+
+    /// Whether the body takes part in the simulation.
+    pub fn is_active(&self) -> bool {
+        self.world.bodies.get(self.id).is_some_and(|record| record.activity != Activity::Quarantined)
+    }
+
+    fn publish(&mut self, row: usize) {
+        if row != WORLD_ROW {
+            self.world.bodies.publish(row);
+        }
     }
 }

@@ -1,0 +1,232 @@
+//! Where the faces of two boxes lie over each other: one face clipped to the outline of the other.
+
+use super::cuboid;
+use super::manifold::ContactPoint;
+use crate::math::DVec3;
+use crate::report::Feature;
+
+/// A box as the box kernels see it: centre and axes in the frame they work in.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Block {
+    /// The middle.
+    pub(crate) center: DVec3,
+    /// Unit vectors along its edges.
+    pub(crate) axes: [DVec3; 3],
+    /// Half the edge lengths.
+    pub(crate) half: DVec3,
+}
+
+impl Block {
+    /// The place of a point given along the box's axes.
+    pub(crate) fn place(&self, local: DVec3) -> DVec3 {
+        self.center + self.turn(local)
+    }
+
+    /// A direction given along the box's axes.
+    pub(crate) fn turn(&self, local: DVec3) -> DVec3 {
+        self.axes[0] * local.x + self.axes[1] * local.y + self.axes[2] * local.z
+    }
+
+    /// The components of a direction along the box's axes.
+    pub(crate) fn components(&self, direction: DVec3) -> DVec3 {
+        DVec3::new(direction.dot(self.axes[0]), direction.dot(self.axes[1]), direction.dot(self.axes[2]))
+    }
+
+    /// A point of the working frame, along the box's axes.
+    pub(crate) fn local(&self, point: DVec3) -> DVec3 {
+        self.components(point - self.center)
+    }
+}
+
+/// The contacts at the corners of an overlap: eight at most, since each of four clips adds one corner to a face's four.
+pub(crate) struct Overlap {
+    points: [ContactPoint; 8],
+    count: usize,
+}
+
+impl Overlap {
+    /// The contacts.
+    pub(crate) fn points(&self) -> &[ContactPoint] {
+        &self.points[..self.count]
+    }
+
+    /// Those no further apart than `margin`, in the same order.
+    pub(crate) fn within(mut self, margin: f64) -> Self {
+        let mut kept = 0;
+        for index in 0..self.count {
+            if self.points[index].separation <= margin {
+                self.points[kept] = self.points[index];
+                kept += 1;
+            }
+        }
+        self.count = kept;
+        self
+    }
+
+    /// The same contacts with `a` and `b` exchanged.
+    pub(crate) fn flipped(mut self) -> Self {
+        self.points[..self.count].iter_mut().for_each(|point| *point = point.flipped());
+        self
+    }
+}
+
+/// A side of the polygon that is being clipped.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Side {
+    /// Of the incident face, between its corners number n and n + 1 (around the face).
+    Incident(usize),
+    /// Of the reference face, over its border at the negative or positive end of the axis `u` (0) or `v` (1).
+    Reference(usize, bool),
+}
+
+/// A corner of that polygon.
+#[derive(Clone, Copy, Debug)]
+struct Vertex {
+    /// Its foot on the reference face, along that face's axes u and v from its middle.
+    foot: [f64; 2],
+    /// From the reference face to it along the normal.
+    separation: f64,
+    /// Which corner of the incident face it is, around that face, if it is one.
+    corner: Option<usize>,
+    /// The side that begins here.
+    side: Side,
+}
+
+/// The polygon: each clip of a convex polygon adds one corner at most.
+#[derive(Clone, Copy)]
+struct Polygon {
+    vertices: [Vertex; 8],
+    count: usize,
+}
+
+impl Polygon {
+    fn push(&mut self, vertex: Vertex) {
+        // Rounding on a sliver may cut a border twice; its points are there already.
+        if self.count < self.vertices.len() {
+            self.vertices[self.count] = vertex;
+            self.count += 1;
+        }
+    }
+}
+
+/// The overlap of two faces, one of each box, seen along `normal`: unit length, from `reference` to `incident`.
+///
+/// The reference face is the one that looks most along the normal, the incident face the one that looks most against
+/// it. The incident face is clipped against the four planes through the reference face's edges that hold the normal
+/// (Sutherland and Hodgman 1974; Gregorius, *The Separating Axis Test between Convex Polyhedra*, GDC 2013). Distances
+/// are taken along the normal, which need not be the reference face's own: then a crossing of two edges, seen along
+/// the normal, is still a corner of the polygon and has the edges' own distance.
+///
+/// In the contacts `a` is the reference and `b` the incident box.
+pub(crate) fn overlap(reference: &Block, incident: &Block, normal: DVec3) -> Overlap {
+    let upward = reference.components(normal);
+    let face = cuboid::facing(upward);
+    let axis = face as usize / 2;
+    let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
+    let incident_corners = cuboid::face_corners(cuboid::facing(-incident.components(normal)));
+
+    let vertices = std::array::from_fn(|index| {
+        let corner = index % 4;
+        let place = incident.place(cuboid::corner(incident_corners[corner], incident.half));
+        let local = reference.local(place);
+        let height = local[axis] * upward[axis].signum() - reference.half[axis];
+        let separation = height / upward[axis].abs();
+        let foot = local - upward * separation;
+        Vertex { foot: [foot[u], foot[v]], separation, corner: Some(corner), side: Side::Incident(corner) }
+    });
+    let mut polygon = Polygon { vertices, count: 4 };
+    let tolerance = 1e-10 * reference.half.max_element().min(incident.half.max_element());
+    for (direction, limit) in [(0, reference.half[u]), (1, reference.half[v])] {
+        for positive in [false, true] {
+            polygon = clip(&polygon, (direction, positive), limit, tolerance);
+        }
+    }
+
+    let contact = |index: usize| {
+        let vertex = &polygon.vertices[index % polygon.count];
+        let before = polygon.vertices[(index + polygon.count - 1) % polygon.count].side;
+        let mut foot = DVec3::ZERO;
+        (foot[u], foot[v]) = (vertex.foot[0], vertex.foot[1]);
+        foot[axis] = reference.half[axis] * upward[axis].signum();
+        let (feature_a, feature_b) = features(vertex, before, (face, foot), &incident_corners);
+        ContactPoint {
+            point: reference.place(foot) + normal * (0.5 * vertex.separation),
+            separation: vertex.separation,
+            feature_a,
+            feature_b,
+        }
+    };
+    let count = polygon.count;
+    if count == 0 {
+        let none = ContactPoint {
+            point: DVec3::ZERO,
+            separation: f64::INFINITY,
+            feature_a: Feature::Surface,
+            feature_b: Feature::Surface,
+        };
+        return Overlap { points: [none; 8], count };
+    }
+    Overlap { points: std::array::from_fn(contact), count }
+}
+
+/// The part of the polygon with ± foot[direction] ≤ `limit`. A corner within `tolerance` of the border is on it: it stays
+/// as it is, and no second one is made beside it.
+fn clip(polygon: &Polygon, (direction, positive): (usize, bool), limit: f64, tolerance: f64) -> Polygon {
+    let mut clipped = Polygon { count: 0, ..*polygon };
+    let beyond = |vertex: &Vertex| vertex.foot[direction] * if positive { 1.0 } else { -1.0 } - limit;
+    let border = Side::Reference(direction, positive);
+    for index in 0..polygon.count {
+        let here = polygon.vertices[index];
+        let next = polygon.vertices[(index + 1) % polygon.count];
+        let (beyond_here, beyond_next) = (beyond(&here), beyond(&next));
+        let crossing = |side: Side| {
+            let share = beyond_here / (beyond_here - beyond_next);
+            let between = |from: f64, to: f64| from + (to - from) * share;
+            let mut foot = [between(here.foot[0], next.foot[0]), between(here.foot[1], next.foot[1])];
+            foot[direction] = if positive { limit } else { -limit };
+            Vertex { foot, separation: between(here.separation, next.separation), corner: None, side }
+        };
+        if beyond_here <= tolerance {
+            let leaves = beyond_next > tolerance;
+            let inside = beyond_here < -tolerance;
+            clipped.push(Vertex { side: if leaves && !inside { border } else { here.side }, ..here });
+            if leaves && inside {
+                clipped.push(crossing(border));
+            }
+        } else if beyond_next < -tolerance {
+            clipped.push(crossing(here.side));
+        }
+    }
+    clipped
+}
+
+/// What touches at a corner of the polygon, from the sides that meet there: `before` ends and `vertex.side` begins.
+/// The reference's feature comes first. `face` and `foot` (along the reference box's axes) tell which corner or edge.
+fn features(
+    vertex: &Vertex,
+    before: Side,
+    (face, foot): (u32, DVec3),
+    incident_corners: &[u32; 4],
+) -> (Feature, Feature) {
+    let incident_edge = |n: usize| cuboid::edge_between(incident_corners[n], incident_corners[(n + 1) % 4]);
+    let reference_edge = |direction: usize| {
+        // The border across u runs along v, and the other way round.
+        let along = (face as usize / 2 + 2 - direction) % 3;
+        Feature::Edge(cuboid::edge_number(along, cuboid::farthest_corner(foot)))
+    };
+    match (vertex.corner, before, vertex.side) {
+        (Some(corner), _, _) => (Feature::Face(face), Feature::Vertex(incident_corners[corner])),
+        (None, Side::Incident(n), Side::Reference(direction, _))
+        | (None, Side::Reference(direction, _), Side::Incident(n)) => {
+            (reference_edge(direction), incident_edge(n))
+        }
+        // Two borders: a corner of the reference face, over the middle of the incident one.
+        _ => {
+            let [first, _, _, _] = *incident_corners;
+            let common = incident_corners.iter().fold(7, |bits, &c| bits & !(first ^ c));
+            let axis = common.trailing_zeros();
+            let incident_face = 2 * axis + (first >> axis & 1);
+            (Feature::Vertex(cuboid::farthest_corner(foot)), Feature::Face(incident_face))
+        }
+    }
+}

@@ -1,0 +1,73 @@
+//! Round shapes and cuboids on a half space. The plane is `b`, so the normal points down into it.
+
+use super::cuboid::{self, Cuboid};
+use super::manifold::{ContactPoint, Manifold};
+use super::round::Round;
+use crate::math::{DVec3, Pose};
+use crate::report::Feature;
+
+/// All points that are not above a plane.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct HalfSpace {
+    /// A point of the plane.
+    point: DVec3,
+    /// Unit vector out of the half space.
+    up: DVec3,
+}
+
+impl HalfSpace {
+    /// The half space y ≤ 0 of the frame at `pose`.
+    pub(crate) fn new(pose: &Pose) -> Self {
+        Self { point: pose.position, up: pose.rotation * DVec3::Y }
+    }
+
+    /// How high `point` is above the plane, m.
+    fn height(&self, point: DVec3) -> f64 {
+        (point - self.point).dot(self.up)
+    }
+
+    /// The contact of `lowest`, a point of `a`'s surface, with the plane straight below it.
+    fn contact(&self, lowest: DVec3, feature_a: Feature) -> ContactPoint {
+        let separation = self.height(lowest);
+        let point = lowest - self.up * (0.5 * separation);
+        ContactPoint { point, separation, feature_a, feature_b: Feature::Surface }
+    }
+}
+
+/// The height of the core's lower end, less the radius.
+pub(crate) fn round_separation(round: &Round, plane: &HalfSpace) -> f64 {
+    plane.height(round.core.center) - plane.up.dot(round.core.half).abs() - round.radius
+}
+
+/// A ball's lowest point, or those below a capsule's two ends.
+pub(crate) fn round_manifold(round: &Round, plane: &HalfSpace, margin: f64) -> Option<Manifold> {
+    let mut manifold = Manifold::new(-plane.up);
+    let ends: &[f64] = if round.is_ball() { &[0.0] } else { &[-1.0, 1.0] };
+    for &end in ends {
+        let contact = plane.contact(round.core.at(end) - plane.up * round.radius, Feature::Surface);
+        if contact.separation <= margin {
+            manifold.push(contact);
+        }
+    }
+    (!manifold.points().is_empty()).then_some(manifold)
+}
+
+/// The height of the lowest corner: the centre's, less the half lengths' shares of it.
+pub(crate) fn box_separation(cuboid: &Cuboid, plane: &HalfSpace) -> f64 {
+    let up = cuboid.pose.rotation.conjugate() * plane.up;
+    plane.height(cuboid.pose.position) - cuboid.half.dot(up.abs())
+}
+
+/// The corners of the face that looks down most; the lowest corner is one of them.
+pub(crate) fn box_manifold(cuboid: &Cuboid, plane: &HalfSpace, margin: f64) -> Option<Manifold> {
+    let up = cuboid.pose.rotation.conjugate() * plane.up;
+    let mut manifold = Manifold::new(-plane.up);
+    for corner in cuboid::face_corners(cuboid::facing(-up)) {
+        let lowest = cuboid.pose.transform_point(cuboid::corner(corner, cuboid.half));
+        let contact = plane.contact(lowest, Feature::Vertex(corner));
+        if contact.separation <= margin {
+            manifold.push(contact);
+        }
+    }
+    (!manifold.points().is_empty()).then_some(manifold)
+}

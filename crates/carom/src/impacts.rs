@@ -1,0 +1,4 @@
+//! Impacts: when two bodies touch, and what becomes of them.
+
+pub(crate) mod strike;
+pub(crate) mod time_of_impact;

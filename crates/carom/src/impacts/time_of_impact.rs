@@ -1,0 +1,288 @@
+//! When two colliders touch: the exact instant, in the configuration of that instant.
+//!
+//! Both bodies fly on known paths, so their separation is a function of time, continuous and with a known bound on its
+//! rate. The search marches from one instant to the next that is safe (*conservative advancement*, Mirtich 1996, ch. 2) or
+//! a small fraction of the thinner body further, whichever is later; a change of sign is then closed in on to rounding.
+
+use crate::bodies::{Bodies, ColliderRow, WORLD_ROW};
+use crate::collide::{self, ContactPoint, Manifold};
+use crate::flight::fly_center;
+use crate::impulse::Velocity;
+use crate::material::Surface;
+use crate::math::{DVec3, Pose};
+use crate::shape::Shape;
+use crate::step::motion::{free_influence, state_at};
+
+/// What decides whether a touch is an impact or a contact.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct RestLaw {
+    /// Gravity, m/s².
+    pub gravity: DVec3,
+    /// Length of a substep, s.
+    pub substep: f64,
+}
+
+/// Two colliders during a step.
+pub(crate) struct Approach<'a> {
+    bodies: &'a Bodies,
+    a: &'a ColliderRow,
+    b: &'a ColliderRow,
+    law: RestLaw,
+    /// All geometry is relative to this point of the world, near both.
+    origin: DVec3,
+    /// Separation up to which the surfaces count as touching, m.
+    tolerance: f64,
+    /// Speed (m/s) below which closing is rounding.
+    noise: f64,
+}
+
+/// Where and how fast two colliders close.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Touch {
+    /// In the world, m.
+    pub point: DVec3,
+    pub normal: DVec3,
+    pub contact: ContactPoint,
+    /// Negative: they close, m/s.
+    pub closing_speed: f64,
+    /// The rest threshold along this normal, m/s.
+    pub rest_speed: f64,
+}
+
+/// A pair's own part of the march: a step may go so far into the thinner body, as a fraction of its thickness.
+const BITE: f64 = 0.02;
+
+/// Relative accuracy of separations: of our own kernels, and of pairs that go through parry's iterations.
+const OWN_ACCURACY: f64 = 1e-9;
+const PARRY_ACCURACY: f64 = 1e-6;
+
+impl<'a> Approach<'a> {
+    pub fn new(bodies: &'a Bodies, a: &'a ColliderRow, b: &'a ColliderRow, law: RestLaw) -> Self {
+        let origin = bodies.center_pose(if a.row == WORLD_ROW { b } else { a }).position;
+        let own = |shape: &Shape| {
+            matches!(
+                shape,
+                Shape::Sphere { .. } | Shape::Cuboid { .. } | Shape::Capsule { .. } | Shape::Plane
+            )
+        };
+        let accuracy = if own(&a.shape) && own(&b.shape) { OWN_ACCURACY } else { PARRY_ACCURACY };
+        let speed = |collider: &ColliderRow| {
+            let state = &bodies.states[collider.row];
+            state.velocity.length()
+                + bodies.constants[collider.row].angular_velocity(state).length() * collider.spin_reach
+        };
+        Self {
+            bodies,
+            a,
+            b,
+            law,
+            origin,
+            tolerance: accuracy * a.reach.min(b.reach),
+            noise: 1e-9 * (speed(a) + speed(b)) + 1e-12,
+        }
+    }
+
+    /// What the two surfaces make together.
+    pub fn surface(&self) -> Surface {
+        Surface::between(&self.a.material, &self.b.material)
+    }
+
+    fn pose_at(&self, collider: &ColliderRow, time: f64) -> Pose {
+        let center = if collider.row == WORLD_ROW {
+            self.bodies.center_pose(collider)
+        } else if collider.spin_reach == 0.0 {
+            let row = collider.row;
+            let (state, constants) = (&self.bodies.states[row], &self.bodies.constants[row]);
+            let flown = time - self.bodies.clocks[row];
+            let (position, _) = fly_center(state, constants, &self.bodies.influences[row], flown);
+            Pose::new(position, state.rotation)
+        } else {
+            let state = state_at(self.bodies, collider.row, time);
+            Pose::new(state.position, state.rotation)
+        };
+        Pose::new(center.position - self.origin, center.rotation).then_local(&collider.local)
+    }
+
+    /// Distance of the surfaces at `time` within the step, m.
+    pub fn separation(&self, time: f64) -> f64 {
+        let (pose_a, pose_b) = (self.pose_at(self.a, time), self.pose_at(self.b, time));
+        collide::separation(&self.a.shape, &pose_a, &self.b.shape, &pose_b)
+    }
+
+    /// All places where the surfaces are within `margin` of each other at `time`; positions are in the world.
+    pub fn manifolds(&self, time: f64, margin: f64, out: &mut Vec<Manifold>) {
+        let (pose_a, pose_b) = (self.pose_at(self.a, time), self.pose_at(self.b, time));
+        collide::manifolds((&self.a.shape, &pose_a), (&self.b.shape, &pose_b), margin, out);
+        out.iter_mut().for_each(|manifold| manifold.shift(self.origin));
+    }
+
+    /// The rest threshold along `normal`, m/s: a body that leaves more slowly is pressed back within one substep,
+    /// so that gravity and the substep cannot tell its bounce from rest: `½ a h`, with `a` the acceleration of `b` against
+    /// `a` by gravity and forces as far as it presses the two together.
+    pub fn rest_speed(&self, normal: DVec3) -> f64 {
+        let free =
+            |collider: &ColliderRow| free_influence(self.bodies, collider.row, self.law.gravity).acceleration;
+        let pressing = -(free(self.b) - free(self.a)).dot(normal);
+        self.noise.max(0.5 * pressing * self.law.substep)
+    }
+
+    /// The touch that closes fastest at `time`, if any closes faster than rounding (or, for a pair that `rests`, than the
+    /// rest threshold).
+    pub fn touch(&self, time: f64, rests: bool) -> Option<Touch> {
+        let mut manifolds = Vec::new();
+        self.manifolds(time, self.tolerance, &mut manifolds);
+        let velocity = |collider: &ColliderRow, point: DVec3| {
+            let state = state_at(self.bodies, collider.row, time);
+            let angular = self.bodies.constants[collider.row].angular_velocity(&state);
+            let center = if collider.row == WORLD_ROW { point } else { state.position };
+            Velocity { linear: state.velocity, angular }.at(point - center)
+        };
+        let mut fastest: Option<Touch> = None;
+        for manifold in &manifolds {
+            let rest_speed = self.rest_speed(manifold.normal);
+            let limit = if rests { rest_speed } else { self.noise };
+            for contact in manifold.points() {
+                let point = contact.point;
+                let closing_speed = (velocity(self.b, point) - velocity(self.a, point)).dot(manifold.normal);
+                if closing_speed < fastest.map_or(-limit, |touch| touch.closing_speed) {
+                    let normal = manifold.normal;
+                    fastest = Some(Touch { point, normal, contact: *contact, closing_speed, rest_speed });
+                }
+            }
+        }
+        fastest
+    }
+
+    /// A bound on how fast the surfaces approach between `from` and `until`, m/s.
+    fn speed_limit(&self, from: f64, until: f64) -> f64 {
+        let time = until - from;
+        let center = |collider: &ColliderRow| {
+            let (state, row) = (&self.bodies.states[collider.row], collider.row);
+            let (constants, influence) = (&self.bodies.constants[row], &self.bodies.influences[row]);
+            let (_, velocity) = fly_center(state, constants, influence, from - self.bodies.clocks[row]);
+            (velocity, influence.acceleration, constants.linear_damping * velocity.length())
+        };
+        let turning = |collider: &ColliderRow| {
+            if collider.spin_reach == 0.0 || collider.row == WORLD_ROW {
+                return 0.0;
+            }
+            let (state, row) = (&self.bodies.states[collider.row], collider.row);
+            let whole = until - self.bodies.clocks[row];
+            let spin = self.bodies.constants[row].spin_limit(state, &self.bodies.influences[row], whole);
+            spin * collider.spin_reach
+        };
+        let (velocity_a, acceleration_a, braking_a) = center(self.a);
+        let (velocity_b, acceleration_b, braking_b) = center(self.b);
+        (velocity_b - velocity_a).length()
+            + ((acceleration_b - acceleration_a).length() + braking_a + braking_b) * time
+            + turning(self.a)
+            + turning(self.b)
+            + f64::MIN_POSITIVE
+    }
+
+    /// The first instant from `from` until `until` at which the two touch and close; for a pair that `rests`, close
+    /// faster than the rest threshold.
+    pub fn next_touch(&self, from: f64, until: f64, rests: bool) -> Option<f64> {
+        let limit = self.speed_limit(from, until);
+        let least = BITE * self.thinner() / limit;
+        let mut now = (from, self.separation(from));
+        let mut before: Option<(f64, f64)> = None;
+        loop {
+            let (time, separation) = now;
+            let touching = separation <= self.tolerance;
+            if touching && self.touch(time, rests).is_some() {
+                return Some(match before {
+                    Some((earlier, _)) => self.first_closing(earlier, time, rests),
+                    None => time,
+                });
+            }
+            if time >= until || separation - limit * (until - time) > self.tolerance {
+                return None;
+            }
+            let next_time = (time + least.max(separation / limit)).min(until);
+            let next = (next_time, self.separation(next_time));
+            let crossing = if touching {
+                None
+            } else if next.1 <= 0.0 {
+                Some(self.root(now, next))
+            } else {
+                before.and_then(|before| self.dip([before, now, next], limit))
+            };
+            if let Some(instant) = crossing
+                && self.touch(instant, rests).is_some()
+            {
+                return Some(instant);
+            }
+            before = Some(now);
+            now = next;
+        }
+    }
+
+    fn thinner(&self) -> f64 {
+        let reach = self.a.reach.min(self.b.reach);
+        let solid = |collider: &ColliderRow| {
+            let thickness = collider.shape.thickness();
+            if thickness > 0.0 { thickness } else { reach }
+        };
+        solid(self.a).min(solid(self.b)).min(2.0 * reach)
+    }
+
+    /// The instant between `apart` (separation above 0) and `over` (0 or below) at which the separation vanishes.
+    ///
+    /// False position with the Illinois rule (Dowell and Jarratt 1971), a bisection every fourth time.
+    fn root(&self, apart: (f64, f64), over: (f64, f64)) -> f64 {
+        let ((mut low, mut high_value), (mut high, mut low_value)) = ((apart.0, over.1), (over.0, apart.1));
+        for iteration in 0..80 {
+            if low_value <= 0.01 * self.tolerance || high - low <= f64::EPSILON * high {
+                break;
+            }
+            let fraction = if iteration % 4 == 3 { 0.5 } else { low_value / (low_value - high_value) };
+            let middle = low + fraction.clamp(0.0, 1.0) * (high - low);
+            let value = self.separation(middle);
+            if value > 0.0 {
+                (low, low_value) = (middle, value);
+                high_value *= 0.5;
+            } else {
+                if value >= -0.01 * self.tolerance {
+                    return middle;
+                }
+                (high, high_value) = (middle, value);
+                low_value *= 0.5;
+            }
+        }
+        high
+    }
+
+    /// Where the separation vanishes between three instants of which the middle one is lowest, if a step was longer than
+    /// was safe and it does vanish: a graze.
+    fn dip(&self, [before, now, after]: [(f64, f64); 3], limit: f64) -> Option<f64> {
+        let safe = |from: (f64, f64), to: (f64, f64)| (to.0 - from.0) * limit <= from.1;
+        if now.1 >= before.1 || now.1 > after.1 || (safe(before, now) && safe(now, after)) {
+            return None;
+        }
+        let (mut low, mut high) = (before.0, after.0);
+        for _ in 0..24 {
+            let third = 0.382 * (high - low);
+            let (left, right) = (low + third, high - third);
+            let (at_left, at_right) = (self.separation(left), self.separation(right));
+            let lowest = if at_left < at_right { (left, at_left) } else { (right, at_right) };
+            if lowest.1 <= 0.0 {
+                return Some(self.root(if lowest.0 > now.0 { now } else { before }, lowest));
+            }
+            if at_left < at_right { high = right } else { low = left }
+        }
+        None
+    }
+
+    /// The first instant after `open`, where nothing closes, at which something does, as at `closing`.
+    fn first_closing(&self, mut open: f64, mut closing: f64, rests: bool) -> f64 {
+        for _ in 0..40 {
+            let middle = 0.5 * (open + closing);
+            if middle <= open || middle >= closing {
+                break;
+            }
+            if self.touch(middle, rests).is_some() { closing = middle } else { open = middle }
+        }
+        closing
+    }
+}

@@ -1,0 +1,3 @@
+//! The solver of what rests.
+
+pub(crate) mod contact;
