@@ -134,7 +134,7 @@ impl Verdict {
 
     fn text(&self, steps: u64, seconds: f64) -> String {
         let mut text = format!(
-            "{}: {} in {} ({} s)\n\n",
+            "{}\n{} in {} ({} s)\n\n",
             self.scene,
             counted(self.collisions, "collision"),
             counted(steps, "step"),

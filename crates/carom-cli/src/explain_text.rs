@@ -206,11 +206,7 @@ impl Story<'_> {
         if contact.static_friction > 0.0 || contact.dynamic_friction > 0.0 {
             text += "  With friction the energy that is expected is an upper bound.\n";
         }
-        let _ = writeln!(
-            text,
-            "  Angular momentum is about {} m; any point does, the same for both.",
-            point(conditions.reference_point)
-        );
+        let _ = writeln!(text, "  Angular momentum is about {} m.", point(conditions.reference_point));
         text += &self.went_to_the_world();
         text
     }

@@ -90,14 +90,16 @@ pub fn show() -> Result<ExitCode, Failure> {
         lines.text("\n")?;
     }
     lines.text(&Summary::new(&simulation, &outcome, watcher).text())?;
-    lines.text(&format!(
-        "\nNext:\n  \
-         carom scenes                         the other built-in scenes\n  \
-         carom explain {SHOWN} --json    this collision as numbers\n  \
-         carom check {SHOWN}             every collision against the laws\n  \
-         carom run {SHOWN} --trace t.jsonl    where everything was, step by step\n  \
-         carom --help                         all the rest"
-    ))?;
+    lines.text("\nNext:")?;
+    for (command, what) in [
+        ("scenes", "the other built-in scenes"),
+        (&format!("explain {SHOWN} --json"), "this collision as numbers"),
+        (&format!("check {SHOWN}"), "every collision against the laws"),
+        (&format!("run {SHOWN} --trace t.jsonl"), "where everything was, step by step"),
+        ("--help", "all the rest"),
+    ] {
+        lines.text(&format!("  carom {command:<38}{what}"))?;
+    }
     lines.finish()?;
     Ok(ExitCode::SUCCESS)
 }

@@ -123,17 +123,13 @@ impl Summary {
 
     /// For people.
     pub fn text(&self) -> String {
-        let mut text = format!(
-            "{}: {} of {} s, {}\n",
-            self.scene,
-            counted(self.steps, "step"),
-            number(self.dt),
-            if self.bodies == 1 { "1 body".to_owned() } else { format!("{} bodies", self.bodies) }
-        );
+        let mut text = format!("{}\n", self.scene);
         let mut row = |what: &str, value: String| {
             let _ = writeln!(text, "  {what:<18}{value}");
         };
-        row("simulated", format!("{} s", number(self.seconds)));
+        let bodies = if self.bodies == 1 { "body" } else { "bodies" };
+        let (steps, dt) = (counted(self.steps, "step"), number(self.dt));
+        row("simulated", format!("{} {bodies}, {} s: {steps} of {dt} s", self.bodies, number(self.seconds)));
         if let (Some(step), Some(factor)) = (self.ms_per_step, self.real_time_factor) {
             let wall = number(self.wall_seconds);
             let (step, factor) = (number(step), rough(factor));
