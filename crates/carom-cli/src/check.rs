@@ -1,0 +1,208 @@
+//! `carom check`: every collision against the laws.
+
+use crate::arguments::RunArguments;
+use crate::audit::{Finding, Law, audit};
+use crate::failure::Failure;
+use crate::output::{Lines, note};
+use crate::run::prepare;
+use crate::simulate::{Moment, Simulation, name_of};
+use crate::text::{counted, number, rough};
+use crate::trace::Trace;
+use serde::Serialize;
+use std::fmt::Write;
+use std::ops::ControlFlow;
+use std::process::ExitCode;
+
+/// How many violations are kept to be listed; all are counted.
+const LISTED: usize = 1000;
+
+/// A law, and one collision.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+struct Judged {
+    law: &'static str,
+    collision: u64,
+    a: String,
+    b: String,
+    time: f64,
+    error: f64,
+    tolerance: f64,
+    unit: &'static str,
+}
+
+/// A law, and all collisions.
+#[derive(Serialize)]
+struct Tally {
+    law: &'static str,
+    checked: u64,
+    violations: u64,
+    /// The one with the largest error for its tolerance.
+    worst: Option<Judged>,
+    tolerance_rule: &'static str,
+    #[serde(skip)]
+    worst_ratio: f64,
+}
+
+/// What `check --json` prints.
+#[derive(Serialize)]
+struct Verdict {
+    scene: String,
+    collisions: u64,
+    laws: Vec<Tally>,
+    violations: Vec<Judged>,
+    #[serde(skip)]
+    without_normal: u64,
+}
+
+/// Simulates a scene and holds its collisions to the laws.
+pub fn check(arguments: &RunArguments) -> Result<ExitCode, Failure> {
+    let (mut simulation, mut trace) = prepare(arguments)?;
+    let mut verdict = Verdict::new(&simulation);
+    let outcome = simulation.run(|moment| {
+        verdict.look(moment);
+        if let Some(trace) = &mut trace {
+            trace.step(moment)?;
+        }
+        Ok(ControlFlow::Continue(()))
+    })?;
+    trace.map_or(Ok(()), Trace::end)?;
+
+    verdict.collisions = outcome.collisions;
+    if verdict.without_normal > 0 && !arguments.simulation.quiet {
+        let contacts = counted(verdict.without_normal, "contact");
+        note(&format!("{contacts} took the normal from the record: the shapes gave none at the point"));
+    }
+    let mut lines = Lines::stdout();
+    if arguments.json {
+        lines.json(&verdict)?;
+    } else {
+        lines.text(&verdict.text(outcome.steps, outcome.steps as f64 * simulation.dt))?;
+    }
+    lines.finish()?;
+    Ok(if verdict.n_violations() == 0 { ExitCode::SUCCESS } else { ExitCode::from(1) })
+}
+
+impl Verdict {
+    fn new(simulation: &Simulation) -> Self {
+        let tally = |law: Law| Tally {
+            law: law.key(),
+            checked: 0,
+            violations: 0,
+            worst: None,
+            tolerance_rule: law.tolerance_rule(),
+            worst_ratio: -1.0,
+        };
+        Self {
+            scene: simulation.scene.clone(),
+            collisions: 0,
+            laws: Law::ALL.into_iter().map(tally).collect(),
+            violations: Vec::new(),
+            without_normal: 0,
+        }
+    }
+
+    fn look(&mut self, moment: &Moment<'_>) {
+        let audit = audit(moment.world, moment.impacts);
+        self.without_normal += audit.without_normal;
+        for finding in &audit.findings {
+            self.enter(finding, moment);
+        }
+    }
+
+    fn enter(&mut self, finding: &Finding, moment: &Moment<'_>) {
+        let tally = &mut self.laws[finding.law as usize];
+        tally.checked += 1;
+        // No number is the worst of all, and JSON has no word for it.
+        let ratio = if finding.ratio().is_nan() { f64::INFINITY } else { finding.ratio() };
+        let is_worst = ratio > tally.worst_ratio;
+        let is_listed = finding.is_violation() && self.violations.len() < LISTED;
+        if is_worst || is_listed {
+            let judged = judged(finding, moment);
+            if is_listed {
+                self.violations.push(judged.clone());
+            }
+            if is_worst {
+                tally.worst = Some(judged);
+                tally.worst_ratio = ratio;
+            }
+        }
+        tally.violations += u64::from(finding.is_violation());
+    }
+
+    fn n_violations(&self) -> u64 {
+        self.laws.iter().map(|tally| tally.violations).sum()
+    }
+
+    fn text(&self, steps: u64, seconds: f64) -> String {
+        let mut text = format!(
+            "{}\n{} in {} ({} s)\n\n",
+            self.scene,
+            counted(self.collisions, "collision"),
+            counted(steps, "step"),
+            number(seconds)
+        );
+        let _ = writeln!(
+            text,
+            "  {:<18}{:>8}{:>10}   worst, and the tolerance there",
+            "law", "checked", "violated"
+        );
+        for tally in &self.laws {
+            let mark = if tally.violations == 0 { '✓' } else { '✗' };
+            let worst = tally.worst.as_ref().map_or("-".to_owned(), |worst| {
+                format!("{} of {} {}", rough(worst.error), rough(worst.tolerance), worst.unit)
+            });
+            let law = tally.law.replace('_', " ");
+            let _ = writeln!(text, "{mark} {law:<18}{:>8}{:>10}   {worst}", tally.checked, tally.violations);
+        }
+        text.push_str(
+            "\nTolerances come from rounding alone, ε = 4·2⁻²³: velocities are stored in single precision.\n",
+        );
+        for tally in &self.laws {
+            let _ = writeln!(text, "  {:<18}{}", tally.law.replace('_', " "), tally.tolerance_rule);
+        }
+        text.push('\n');
+        match self.n_violations() {
+            0 => text.push_str("Every law held.\n"),
+            count => {
+                let _ = writeln!(text, "{}:", counted(count, "violation"));
+                for violation in &self.violations {
+                    let _ = writeln!(text, "  {}", violation.text());
+                }
+                let unlisted = count - self.violations.len() as u64;
+                if unlisted > 0 {
+                    let _ = writeln!(text, "  and {unlisted} more");
+                }
+            }
+        }
+        text
+    }
+}
+
+impl Judged {
+    fn text(&self) -> String {
+        format!(
+            "{} of collision {} ({} and {}) at t = {} s: off by {} {}, tolerance {}",
+            self.law.replace('_', " "),
+            self.collision,
+            self.a,
+            self.b,
+            number(self.time),
+            rough(self.error),
+            self.unit,
+            rough(self.tolerance)
+        )
+    }
+}
+
+fn judged(finding: &Finding, moment: &Moment<'_>) -> Judged {
+    let impact = &moment.impacts[finding.impact];
+    Judged {
+        law: finding.law.key(),
+        collision: moment.impacts_before + finding.impact as u64,
+        a: name_of(moment.world, impact.a).to_owned(),
+        b: name_of(moment.world, impact.b).to_owned(),
+        time: impact.time,
+        error: finding.error,
+        tolerance: finding.tolerance,
+        unit: finding.law.unit(),
+    }
+}
