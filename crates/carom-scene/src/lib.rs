@@ -11,9 +11,14 @@
 //! wrong with a file comes back as a [`SceneError`] that names the file, the place in it, the value found and what
 //! was expected. Nothing is guessed and nothing is dropped without a note.
 
+mod builtin;
 mod error;
 mod gltf;
+mod json;
 mod scene;
+mod schema;
 
+pub use builtin::{BuiltinScene, DEFAULT_SCENE, builtin_scenes};
 pub use error::SceneError;
 pub use scene::Scene;
+pub use schema::schema;
