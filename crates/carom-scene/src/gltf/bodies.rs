@@ -307,6 +307,8 @@ impl<'a> Builder<'a, '_> {
 /// Finds the place in the file for what the engine says of a body: `whole` stands for the body, `places` for its
 /// colliders.
 fn blame(error: Invalid, whole: &At, places: &[&At]) -> SceneError {
+    let expected = error.expected.replace("inertia_diagonal", "inertiaDiagonal");
+    let error = Invalid { expected, ..error };
     let collider = error.field.strip_prefix("colliders[").and_then(|rest| rest.split_once(']'));
     if let Some((index, rest)) = collider
         && let Some(place) = index.parse().ok().and_then(|index: usize| places.get(index))

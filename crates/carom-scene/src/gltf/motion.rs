@@ -93,16 +93,19 @@ fn moments(at: &At) -> Result<DVec3, SceneError> {
     Ok(DVec3::new(moment(x)?, moment(y)?, moment(z)?))
 }
 
-/// The key of `motion` that states what the engine calls `field`, if it is stated there.
-pub(super) fn key_of(field: &str) -> Option<&'static str> {
+/// Where in `motion` stands what the engine calls `field`, if it is stated there.
+pub(super) fn key_of(field: &str) -> Option<String> {
     let names = [
         ("mass", "mass"),
         ("center_of_mass", "centerOfMass"),
-        ("inertia.orientation", "inertiaOrientation"),
-        ("inertia", "inertiaDiagonal"),
+        ("inertia_orientation", "inertiaOrientation"),
+        ("inertia_diagonal", "inertiaDiagonal"),
         ("linear_velocity", "linearVelocity"),
         ("angular_velocity", "angularVelocity"),
         ("gravity_factor", "gravityFactor"),
     ];
-    names.into_iter().find(|(name, _)| field.starts_with(name)).map(|(_, key)| key)
+    names.into_iter().find_map(|(name, key)| {
+        let rest = field.strip_prefix(name)?;
+        (rest.is_empty() || rest.starts_with('[')).then(|| format!("{key}{rest}"))
+    })
 }
