@@ -248,8 +248,7 @@ impl Body {
     pub fn collider_mass(&self) -> MassProperties {
         let solid = self.colliders.iter().filter(|collider| !collider.sensor);
         MassProperties::sum(
-            solid
-                .map(|collider| collider.shape.mass_properties(collider.density).transformed(&collider.pose)),
+            solid.map(|collider| collider.shape.mass_properties(collider.density).transformed(&collider.pose)),
         )
     }
 }

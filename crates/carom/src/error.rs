@@ -22,8 +22,7 @@ impl Invalid {
 
     /// The same error seen from further out: `prefix` goes before the field.
     pub fn within(mut self, prefix: &str) -> Self {
-        self.field =
-            if self.field.is_empty() { prefix.to_owned() } else { format!("{prefix}.{}", self.field) };
+        self.field = if self.field.is_empty() { prefix.to_owned() } else { format!("{prefix}.{}", self.field) };
         self
     }
 }

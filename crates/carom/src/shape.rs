@@ -119,9 +119,7 @@ impl Shape {
         };
         match self {
             Shape::Sphere { radius } => length("radius", *radius),
-            Shape::Cuboid { size } => {
-                (0..3).try_for_each(|axis| length(&format!("size[{axis}]"), size[axis]))
-            }
+            Shape::Cuboid { size } => (0..3).try_for_each(|axis| length(&format!("size[{axis}]"), size[axis])),
             Shape::Capsule { height, radius } => length("height", *height).and(length("radius", *radius)),
             Shape::TaperedCapsule { height, radius_bottom, radius_top }
             | Shape::Cylinder { height, radius_bottom, radius_top } => {

@@ -1,7 +1,7 @@
 //! The world: bodies, and the law that moves them.
 
-use crate::bodies::{BodyId, BodyState};
 use crate::body::Body;
+use crate::bodies::{BodyId, BodyState};
 use crate::error::Invalid;
 use crate::math::DVec3;
 use crate::report::Impact;

@@ -198,7 +198,9 @@ fn locate(body: &Cursor<'_>, invalid: Invalid) -> SceneError {
         }
         _ => field,
     };
-    let value = value_at(body.value, &field).map_or(invalid.value, ToString::to_string);
+    // Of all colliders together the engine says more than the file.
+    let in_file = value_at(body.value, &field).filter(|_| field != "colliders");
+    let value = in_file.map_or(invalid.value, ToString::to_string);
     let path = if field.is_empty() { body.path.to_string() } else { format!("{}.{field}", body.path) };
     SceneError::invalid(body.file, path, value, invalid.expected)
 }
