@@ -23,6 +23,11 @@ impl Candidates {
         }
     }
 
+    /// Takes away the points closer than `distance` (m) to `place`.
+    pub fn remove_at(&mut self, place: DVec3, distance: f64) {
+        self.points.retain(|point| point.point.distance(place) > distance);
+    }
+
     /// The smallest separation so far, m; infinite where there is no point.
     pub fn least_separation(&self) -> f64 {
         self.points.iter().map(|point| point.separation).fold(f64::INFINITY, f64::min)

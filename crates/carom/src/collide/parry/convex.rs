@@ -4,7 +4,6 @@ use crate::hull::Hull;
 use crate::math::{DVec3, sin_cos};
 use crate::report::Feature;
 use crate::shape::Shape;
-use parry3d_f64::shape::SupportMap;
 
 /// All points within `radius` of a core.
 pub(super) struct Convex<'a> {
@@ -98,12 +97,6 @@ impl<'a> Convex<'a> {
             Shape::Hull(ref hull) => Self { core: Core::Hull(hull), radius: 0.0 },
             Shape::Plane | Shape::Mesh(_) => return None,
         })
-    }
-}
-
-impl SupportMap for Core<'_> {
-    fn local_support_point(&self, direction: DVec3) -> DVec3 {
-        self.support(direction)
     }
 }
 
