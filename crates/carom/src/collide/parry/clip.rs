@@ -190,7 +190,7 @@ impl Knife {
         };
         // Twice the area, as a vector (Newell).
         let area: DVec3 = (1..points.len() - 1).map(|k| from_origin(k).cross(from_origin(k + 1))).sum();
-        if !(area.z.abs() > 0.05 * area.length()) {
+        if area.z.abs() <= 0.05 * area.length() {
             return None;
         }
         let slope = (-area.x / area.z, -area.y / area.z);

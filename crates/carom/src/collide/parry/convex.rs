@@ -143,6 +143,11 @@ impl Core<'_> {
         }
     }
 
+    /// Whether its support point moves evenly with the direction.
+    pub fn is_curved(&self) -> bool {
+        matches!(self, Core::Balls { .. } | Core::Frustum { .. })
+    }
+
     /// A point well inside.
     pub fn middle(&self) -> DVec3 {
         match self {
