@@ -107,13 +107,21 @@ fn swapped(manifold: &Manifold) -> Manifold {
     swapped
 }
 
-/// The manifold of two convex shapes, if they come within `margin`. A `correct`ion may turn the normal (in a's frame) that
-/// the shapes alone would give; then only points where the two sides face each other along it count.
+/// What a mesh adds to the question where one of its triangles touches.
+struct OnSurface<'a> {
+    /// The normal that the surface allows, in the triangle's frame, in place of the one that the two shapes alone
+    /// would give. Where it is another, only points where the two sides face each other along it count.
+    correct: &'a dyn Fn(DVec3) -> DVec3,
+    /// What other triangles of the mesh have given already: a point on a shared side is not given twice.
+    known: &'a [Manifold],
+}
+
+/// The manifold of two convex shapes, if they come within `margin`.
 fn convex_manifold(
     a: (&Convex, &Pose),
     b: (&Convex, &Pose),
     margin: f64,
-    correct: Option<&dyn Fn(DVec3) -> DVec3>,
+    surface: Option<&OnSurface>,
 ) -> Option<Manifold> {
     let (convex_a, convex_b) = (a.0, b.0);
     let inner = a.1.relative(b.1);
@@ -122,7 +130,7 @@ fn convex_manifold(
     if least.gap - radii > margin {
         return None;
     }
-    let normal = correct.map_or(least.normal, |correct| correct(least.normal));
+    let normal = surface.map_or(least.normal, |surface| (surface.correct)(least.normal));
     let corrected = normal != least.normal;
     if corrected {
         least = axis::Axis { normal, ..least };
@@ -133,8 +141,16 @@ fn convex_manifold(
     if !corrected && candidates.least_separation() > least.gap - radii + 1e-6 * size {
         candidates.push(clip::witness(convex_a, convex_b, &inner, &least));
     }
+    let outer_normal = a.1.rotation * normal;
+    for known in surface.map_or(&[][..], |surface| surface.known) {
+        if known.normal.dot(outer_normal) > 0.9999 {
+            for point in known.points() {
+                candidates.remove_at(a.1.inverse_transform_point(point.point), 1e-6 * size);
+            }
+        }
+    }
     let manifold = candidates.reduced(normal)?;
-    let mut placed = Manifold::new(a.1.rotation * manifold.normal);
+    let mut placed = Manifold::new(outer_normal);
     for point in manifold.points() {
         placed.push(ContactPoint { point: a.1.transform_point(point.point), ..*point });
     }

@@ -75,13 +75,13 @@ impl<'a> Build<'a> {
         let off_line = |point: DVec3| (point - points[a]).cross(along).length();
         let c = farthest(&off_line)?;
         // Off a line by rounding only, no plane can be told.
-        if !(off_line(points[c]) > thickness) {
+        if off_line(points[c]) <= thickness {
             return None;
         }
         let normal = along.cross(points[c] - points[a]).normalize_or_zero();
         let height = |point: DVec3| (point - points[a]).dot(normal);
         let d = farthest(&|point| height(point).abs())?;
-        if !(height(points[d]).abs() > thickness) {
+        if height(points[d]).abs() <= thickness {
             return None;
         }
         let (b, c) = if height(points[d]) > 0.0 { (c, b) } else { (b, c) };

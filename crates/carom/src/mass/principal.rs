@@ -17,7 +17,7 @@ pub fn principal_axes(tensor: &DMat3) -> (DVec3, DQuat) {
     const SWEEPS: usize = 32;
     // Rows and columns agree up to rounding; their mean is symmetric exactly.
     let mut a = ((*tensor + tensor.transpose()) * 0.5).to_cols_array_2d();
-    let mut axes = DMat3::IDENTITY.to_cols_array_2d();
+    let mut axes = [DVec3::X, DVec3::Y, DVec3::Z];
     for _ in 0..SWEEPS {
         let mut rotated = false;
         for (p, q) in [(0, 1), (0, 2), (1, 2)] {
@@ -44,16 +44,14 @@ pub fn principal_axes(tensor: &DMat3) -> (DVec3, DQuat) {
             a[r][q] = sine * rp + cosine * rq;
             a[p][r] = a[r][p];
             a[q][r] = a[r][q];
-            for k in 0..3 {
-                let (vp, vq) = (axes[p][k], axes[q][k]);
-                axes[p][k] = cosine * vp - sine * vq;
-                axes[q][k] = sine * vp + cosine * vq;
-            }
+            let (axis_p, axis_q) = (axes[p], axes[q]);
+            axes[p] = axis_p * cosine - axis_q * sine;
+            axes[q] = axis_p * sine + axis_q * cosine;
         }
         if !rotated {
             break;
         }
     }
-    let rotation = DQuat::from_mat3(&DMat3::from_cols_array_2d(&axes)).normalize();
+    let rotation = DQuat::from_mat3(&DMat3::from_cols(axes[0], axes[1], axes[2])).normalize();
     (DVec3::new(a[0][0], a[1][1], a[2][2]), rotation)
 }

@@ -23,6 +23,11 @@ impl Candidates {
         }
     }
 
+    /// Takes away the points closer than `distance` (m) to `place`.
+    pub fn remove_at(&mut self, place: DVec3, distance: f64) {
+        self.points.retain(|point| point.point.distance(place) > distance);
+    }
+
     /// The smallest separation so far, m; infinite where there is no point.
     pub fn least_separation(&self) -> f64 {
         self.points.iter().map(|point| point.separation).fold(f64::INFINITY, f64::min)
@@ -185,7 +190,7 @@ impl Knife {
         };
         // Twice the area, as a vector (Newell).
         let area: DVec3 = (1..points.len() - 1).map(|k| from_origin(k).cross(from_origin(k + 1))).sum();
-        if !(area.z.abs() > 0.05 * area.length()) {
+        if area.z.abs() <= 0.05 * area.length() {
             return None;
         }
         let slope = (-area.x / area.z, -area.y / area.z);

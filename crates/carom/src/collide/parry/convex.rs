@@ -4,7 +4,6 @@ use crate::hull::Hull;
 use crate::math::{DVec3, sin_cos};
 use crate::report::Feature;
 use crate::shape::Shape;
-use parry3d_f64::shape::SupportMap;
 
 /// All points within `radius` of a core.
 pub(super) struct Convex<'a> {
@@ -101,12 +100,6 @@ impl<'a> Convex<'a> {
     }
 }
 
-impl SupportMap for Core<'_> {
-    fn local_support_point(&self, direction: DVec3) -> DVec3 {
-        self.support(direction)
-    }
-}
-
 impl Core<'_> {
     /// The point that lies farthest in `direction` (of any length).
     pub fn support(&self, direction: DVec3) -> DVec3 {
@@ -148,6 +141,11 @@ impl Core<'_> {
                 0.5 * extent(DVec3::X).max(extent(DVec3::Y)).max(extent(DVec3::Z))
             }
         }
+    }
+
+    /// Whether its support point moves evenly with the direction.
+    pub fn is_curved(&self) -> bool {
+        matches!(self, Core::Balls { .. } | Core::Frustum { .. })
     }
 
     /// A point well inside.

@@ -2,7 +2,7 @@
 
 use super::clip::Candidates;
 use super::convex::{Convex, Core};
-use super::{axis, convex_manifold};
+use super::{OnSurface, axis, convex_manifold};
 use crate::collide::{ContactPoint, Manifold};
 use crate::math::{DVec3, Pose};
 use crate::mesh::Mesh;
@@ -77,15 +77,18 @@ pub(super) fn manifolds(
             (Some(convex), _) => {
                 let middle = inner.transform_point(convex.core.middle());
                 let correct = |normal: DVec3| surface_normal(mesh, index, normal, middle);
-                let found = convex_manifold((&triangle, pose), (&convex, other.1), margin, Some(&correct));
-                add_new_points(found, first, low.distance(high), out);
+                let surface = OnSurface { correct: &correct, known: &out[first..] };
+                let found = convex_manifold((&triangle, pose), (&convex, other.1), margin, Some(&surface));
+                out.extend(found);
             }
             (None, Shape::Mesh(other_mesh)) => {
                 let (low, high) = triangle_bounds(mesh, index, &other.1.relative(pose));
                 for other_index in nearby(other_mesh, low, high, margin) {
                     let other_triangle = triangle_core(other_mesh, other_index);
-                    let found = convex_manifold((&triangle, pose), (&other_triangle, other.1), margin, None);
-                    add_new_points(found, first, low.distance(high), out);
+                    let surface = OnSurface { correct: &|normal| normal, known: &out[first..] };
+                    let other_triangle = (&other_triangle, other.1);
+                    let found = convex_manifold((&triangle, pose), other_triangle, margin, Some(&surface));
+                    out.extend(found);
                 }
             }
             (None, _) => {}
@@ -96,24 +99,6 @@ pub(super) fn manifolds(
 fn triangle_bounds(mesh: &Mesh, index: u32, pose: &Pose) -> (DVec3, DVec3) {
     let corners = mesh.corners(index).map(|corner| pose.transform_point(corner));
     (corners[0].min(corners[1]).min(corners[2]), corners[0].max(corners[1]).max(corners[2]))
-}
-
-/// Appends `found` without the points that a neighbouring triangle has given already (on a side that both share).
-fn add_new_points(found: Option<Manifold>, first: usize, size: f64, out: &mut Vec<Manifold>) {
-    let Some(found) = found else { return };
-    let mut fresh = Manifold::new(found.normal);
-    for point in found.points() {
-        let known = out[first..].iter().any(|earlier| {
-            earlier.normal.dot(found.normal) > 0.9999
-                && earlier.points().iter().any(|other| other.point.distance(point.point) <= 1e-6 * size)
-        });
-        if !known {
-            fresh.push(*point);
-        }
-    }
-    if !fresh.points().is_empty() {
-        out.push(fresh);
-    }
 }
 
 /// The normal that the surface allows a contact on this triangle: `normal`, the triangle's own, or the neighbour's.
