@@ -128,7 +128,16 @@ impl<'a> Approach<'a> {
 
     /// The touch that closes fastest at `time`, if any closes faster than rounding (or, for a pair that `rests`, than the
     /// rest threshold).
-    pub fn touch(&self, time: f64, rests: bool) -> Option<Touch> {
+    fn touch(&self, time: f64, rests: bool) -> Option<Touch> {
+        self.fastest_touch(time, rests, 1.0)
+    }
+
+    /// The same at an instant that [`Self::next_touch`] has found, where the closing speed may just be at its limit.
+    pub fn confirmed_touch(&self, time: f64, rests: bool) -> Option<Touch> {
+        self.fastest_touch(time, rests, 0.5)
+    }
+
+    fn fastest_touch(&self, time: f64, rests: bool, share_of_limit: f64) -> Option<Touch> {
         let mut manifolds = Vec::new();
         self.manifolds(time, self.tolerance, &mut manifolds);
         let velocity = |collider: &ColliderRow, point: DVec3| {
@@ -140,7 +149,7 @@ impl<'a> Approach<'a> {
         let mut fastest: Option<Touch> = None;
         for manifold in &manifolds {
             let rest_speed = self.rest_speed(manifold.normal);
-            let limit = if rests { rest_speed } else { self.noise };
+            let limit = share_of_limit * if rests { rest_speed } else { self.noise };
             for contact in manifold.points() {
                 let point = contact.point;
                 let closing_speed = (velocity(self.b, point) - velocity(self.a, point)).dot(manifold.normal);

@@ -67,6 +67,8 @@ struct Watched {
     stamp: u32,
     hits: u32,
     fastest: f64,
+    /// How long to look away after a touch that vanished under a closer look, as a share of the step.
+    patience: f64,
 }
 
 /// The touches of one step.
@@ -148,7 +150,7 @@ impl<'a> Events<'a> {
         }
         let rows = [a.row, b.row];
         let pair = self.pairs.len();
-        self.pairs.push(Watched { colliders, rows, stamp: 0, hits: 0, fastest: 0.0 });
+        self.pairs.push(Watched { colliders, rows, stamp: 0, hits: 0, fastest: 0.0, patience: 1e-9 });
         for row in rows.into_iter().filter(|&row| row != WORLD_ROW) {
             self.pairs_of_row[row].push(pair);
         }
@@ -180,8 +182,9 @@ impl<'a> Events<'a> {
         }
         let rests = self.resting.contains(colliders);
         let Some(approach) = self.approach(colliders) else { return };
-        let Some(touch) = approach.touch(time, rests) else {
-            return self.ask(pair, self.just_after(time));
+        let Some(touch) = approach.confirmed_touch(time, rests) else {
+            let later = self.later(pair, time);
+            return self.ask(pair, later);
         };
         let surface = approach.surface();
         if self.comes_to_rest(pair, &touch) {
@@ -195,9 +198,11 @@ impl<'a> Events<'a> {
         }
     }
 
-    /// A touch that vanished under a closer look is looked for again a moment later.
-    fn just_after(&self, time: f64) -> f64 {
-        time + 1e-9 * self.end
+    /// When to look again for a touch that vanished under a closer look: a moment later, the next time twice that.
+    fn later(&mut self, pair: usize, time: f64) -> f64 {
+        let watched = &mut self.pairs[pair];
+        watched.patience *= 2.0;
+        time + watched.patience * self.end
     }
 
     /// Whether a touch is to be a contact, not an impact.
