@@ -314,6 +314,8 @@ fn blame(error: Invalid, whole: &At, places: &[&At]) -> SceneError {
         && let Some(place) = index.parse().ok().and_then(|index: usize| places.get(index))
     {
         let field = rest.trim_start_matches('.').to_owned();
+        let inner = if field.starts_with("shape") { ".geometry" } else { "" };
+        let place = At { path: format!("{}{inner}", place.path), ..(*place).clone() };
         return place.engine(Invalid { field, ..error });
     }
     match motion::key_of(&error.field) {
