@@ -28,6 +28,11 @@ const SCENES: &[BuiltinScene] = &[
     builtin!("box-on-its-corner", "json", "a box falls on its corner and tumbles"),
     builtin!("two-rods", "json", "two turning rods meet edge on edge"),
     builtin!("bat-and-ball", "json", "a swung bat meets a thrown ball"),
+    builtin!(
+        "basketball-and-bowling-ball",
+        "glb",
+        "two balls dropped from 1.5 m: one bounces, one hardly does"
+    ),
 ];
 
 /// The built-in scenes, the one to start with first.

@@ -11,6 +11,7 @@ use super::json::{At, Document};
 use super::mesh::{Reader, Surface};
 use super::motion;
 use super::shapes::Implicit;
+use super::sheet;
 use super::surface::{PHYSICS, Tables};
 use crate::SceneError;
 use carom::math::{DVec3, Pose};
@@ -173,6 +174,10 @@ impl<'a> Builder<'a, '_> {
         };
         if body.motion == carom::Motion::Dynamic {
             motion::complete_mass(&mut body, motion)?;
+            if sheet::spread(&mut body) {
+                let note = "the colliders enclose no volume, so the mass is spread over their surface";
+                self.notes.push(format!("{}: {note}", motion.path));
+            }
         }
         match body.check() {
             Ok(()) => Ok(Some(body)),
@@ -314,6 +319,8 @@ fn blame(error: Invalid, whole: &At, places: &[&At]) -> SceneError {
         && let Some(place) = index.parse().ok().and_then(|index: usize| places.get(index))
     {
         let field = rest.trim_start_matches('.').to_owned();
+        let inner = if field.starts_with("shape") { ".geometry" } else { "" };
+        let place = At { path: format!("{}{inner}", place.path), ..(*place).clone() };
         return place.engine(Invalid { field, ..error });
     }
     match motion::key_of(&error.field) {

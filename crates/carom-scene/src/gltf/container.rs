@@ -80,6 +80,8 @@ fn parse(file: &str, bytes: &[u8]) -> Result<Value, SceneError> {
         let value = format!("no UTF-8 at byte {} of the JSON", error.valid_up_to());
         SceneError::invalid(file, "", value, "JSON in UTF-8")
     })?;
+    // The one reader refuses keys that stand twice and has the better messages; the other gives what glTF is walked in.
+    crate::json::Json::parse(text, file)?;
     serde_json::from_str(text).map_err(|error| SceneError::Syntax {
         file: file.to_owned(),
         line: error.line(),

@@ -87,7 +87,9 @@ impl Frame {
     /// The scale along the node's axes, signs included; nothing where the node is sheared.
     pub fn scale(&self) -> Option<DVec3> {
         let stretch = self.stretch();
-        is_diagonal(&stretch, SHEAR).then(|| diagonal(&stretch))
+        // What rounding makes of a scale of one is one, so that lengths stay those of the file.
+        let tidy = |x: f64| if (x.abs() - 1.0).abs() < 1e-12 { x.signum() } else { x };
+        is_diagonal(&stretch, SHEAR).then(|| DVec3::from_array(diagonal(&stretch).to_array().map(tidy)))
     }
 }
 

@@ -50,6 +50,16 @@ impl Surface {
     }
 }
 
+/// What a node does to the vertices of its mesh.
+struct Bend {
+    /// How far each morph target counts.
+    weights: Vec<f64>,
+    /// The node in the space of the geometry.
+    frame: Frame,
+    /// The joints' maps, which go before the frame.
+    skin: Option<Vec<Frame>>,
+}
+
 /// What is needed to read meshes.
 pub(super) struct Reader<'a, 'b> {
     pub document: &'b Document<'a>,
@@ -75,8 +85,9 @@ impl<'a> Reader<'a, '_> {
                 None => Vec::new(),
             };
             let skin = at.get("skin")?.map(|skin| self.skin(&skin, node, &frame)).transpose()?;
+            let bend = Bend { weights, frame, skin };
             for primitive in mesh.need("primitives", "a list of primitives")?.items()? {
-                self.primitive(&primitive, &weights, &frame, skin.as_deref(), &mut surface)?;
+                self.primitive(&primitive, &bend, &mut surface)?;
             }
         }
         surface.weld();
@@ -86,9 +97,7 @@ impl<'a> Reader<'a, '_> {
     fn primitive(
         &mut self,
         primitive: &At<'a>,
-        weights: &[f64],
-        frame: &Frame,
-        skin: Option<&[Frame]>,
+        bend: &Bend,
         surface: &mut Surface,
     ) -> Result<(), SceneError> {
         let mode = match primitive.get("mode")? {
@@ -107,8 +116,9 @@ impl<'a> Reader<'a, '_> {
         let positions = attributes.need("POSITION", "an index into accessors")?;
         let (_, accessor) = self.document.follow(&positions, "accessors")?;
         let mut points = vectors(&self.buffers.numbers(&accessor, "VEC3", 3)?);
-        self.morph(primitive, weights, &mut points)?;
-        match skin {
+        self.morph(primitive, &bend.weights, &mut points)?;
+        let frame = &bend.frame;
+        match &bend.skin {
             Some(joints) => self.deform(&attributes, joints, &mut points)?,
             None => points.iter_mut().for_each(|point| *point = frame.linear * *point + frame.position),
         }

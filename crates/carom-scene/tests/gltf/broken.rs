@@ -238,6 +238,7 @@ fn torn_containers_are_one_clear_error() {
             other => panic!("{what}: {other:?}"),
         }
     }
+    assert!(load_bytes("a.gltf", br#"{ "asset": { "version": "2.0" }, "nodes": [], "nodes": [] }"#).is_err());
     let error = load_bytes("a.gltf", br#"{ "asset": "#).unwrap_err();
     assert!(matches!(error, SceneError::Syntax { line: 1, .. }), "{error}");
 }

@@ -17,7 +17,7 @@ fn floats(corners: &[[f32; 3]]) -> Vec<u8> {
 /// A file with one body `it`, whose geometry is node 1 with mesh 0. Views are consecutive pieces of the buffer.
 fn document(pieces: &[&[u8]], accessors: Value, primitive: Value, convex: bool) -> (Value, Vec<u8>) {
     let geometry = json!({ "node": 1, "convexHull": convex });
-    let physics = json!({ "motion": { "mass": 1 }, "collider": { "geometry": geometry } });
+    let physics = json!({ "motion": { "mass": 1, "inertiaDiagonal": [1, 1, 1] }, "collider": { "geometry": geometry } });
     let mut document = scene(json!([node(json!({ "name": "it" }), physics), { "mesh": 0 }]));
     document["scenes"] = json!([{ "nodes": [0] }]);
     document["meshes"] = json!([{ "primitives": [primitive] }]);

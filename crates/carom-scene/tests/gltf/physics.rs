@@ -148,3 +148,18 @@ fn an_orientation_without_moments_is_noted() {
     let scene = load(&scene(json!([node(json!({}), json!({ "motion": motion, "collider": collider(0) }))])));
     has_note(&scene, "inertiaOrientation");
 }
+
+#[test]
+fn a_mass_without_a_volume_is_spread_over_the_surface() {
+    let plate =
+        node(json!({ "name": "plate" }), json!({ "motion": { "mass": 12 }, "collider": collider(5) }));
+    let scene = load(&scene(json!([plate])));
+    let plate = body(&scene, "plate");
+    near(plate.center_of_mass.unwrap(), [0.0, 0.0, 0.0]);
+    let inertia = plate.inertia.unwrap();
+    let tensor = carom::math::rotated_diagonal(inertia.orientation, inertia.diagonal);
+    // A plate of 2 m by 4 m: m z²/12, the sum of both, m x²/12.
+    let expected = carom::math::DMat3::from_diagonal(DVec3::new(16.0, 20.0, 4.0));
+    assert!((tensor - expected).abs_diff_eq(carom::math::DMat3::ZERO, 1e-9), "{tensor}");
+    has_note(&scene, "spread over their surface");
+}
