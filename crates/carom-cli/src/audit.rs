@@ -575,3 +575,102 @@ fn impulse_on_b(strike: &Strike) -> Option<(DVec3, f64)> {
     };
     [told_by(0), told_by(1)].into_iter().flatten().min_by(|one, other| one.1.total_cmp(&other.1))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use carom::{Body, Settings, Shape};
+
+    /// A spinning ball that hits a resting one (or an immovable box) off its centre, as a world and the record of it.
+    fn hit(friction: f64, immovable: bool) -> (World, Impact) {
+        let mut world = World::with_settings(Settings { gravity: DVec3::ZERO, ..Settings::default() });
+        let target = if immovable {
+            Body::fixed().with(Shape::cuboid(1.0, 4.0, 4.0))
+        } else {
+            Body::dynamic().with(Shape::sphere(0.5))
+        };
+        world.add(target.friction(friction).restitution(0.5));
+        let ball = Body::dynamic().at(-1.5, 0.3, 0.1).with(Shape::sphere(0.5)).moving(3.0, 0.1, 0.0);
+        world.add(ball.spinning(1.0, 2.0, 3.0).friction(friction).restitution(0.5));
+        for _ in 0..600 {
+            let impacts = world.step(1.0 / 60.0).impacts().to_vec();
+            if let [impact] = impacts.as_slice() {
+                return (world, impact.clone());
+            }
+        }
+        panic!("they missed each other");
+    }
+
+    fn broken(world: &World, impact: &Impact) -> Vec<Law> {
+        let audit = audit(world, std::slice::from_ref(impact));
+        assert_eq!(audit.without_normal, 0);
+        let mut laws: Vec<Law> = audit
+            .findings
+            .iter()
+            .filter(|finding| finding.is_violation())
+            .map(|finding| finding.law)
+            .collect();
+        laws.sort_unstable();
+        laws.dedup();
+        laws
+    }
+
+    #[test]
+    fn what_the_engine_does_keeps_every_law() {
+        for (friction, immovable) in [(0.0, false), (0.0, true), (0.3, false), (0.3, true)] {
+            let (world, impact) = hit(friction, immovable);
+            assert_eq!(broken(&world, &impact), []);
+        }
+    }
+
+    #[test]
+    fn a_wrong_separating_speed_is_found() {
+        let (world, mut impact) = hit(0.0, true);
+        impact.after_b.linear *= 1.0 + 1e-4;
+        assert!(broken(&world, &impact).contains(&Law::SeparatingSpeed));
+    }
+
+    #[test]
+    fn momentum_out_of_nothing_is_found() {
+        let (world, mut impact) = hit(0.3, false);
+        // Across the normal, so that the separating speed stays right.
+        impact.after_b.linear += impact.contact.normal.any_orthogonal_vector().normalize() * 1e-3;
+        let broken = broken(&world, &impact);
+        assert!(broken.contains(&Law::LinearMomentum) && broken.contains(&Law::LineOfAction), "{broken:?}");
+        assert!(!broken.contains(&Law::SeparatingSpeed));
+    }
+
+    #[test]
+    fn spin_out_of_nothing_is_found_also_beside_what_can_not_move() {
+        for immovable in [false, true] {
+            let (world, mut impact) = hit(0.3, immovable);
+            impact.after_b.angular += impact.contact.normal * 1e-3;
+            assert!(broken(&world, &impact).contains(&Law::AngularMomentum));
+        }
+    }
+
+    #[test]
+    fn friction_where_there_is_none_is_found() {
+        let (world, mut impact) = hit(0.0, true);
+        let push = impact.contact.normal.any_orthogonal_vector().normalize() * 1e-3;
+        impact.after_b.linear += push / impact.side_b.mass;
+        impact.after_b.angular += impact.side_b.inverse_inertia * impact.side_b.arm.cross(push * 1e3);
+        assert!(broken(&world, &impact).contains(&Law::LineOfAction));
+    }
+
+    #[test]
+    fn energy_out_of_nothing_is_found() {
+        let (world, mut impact) = hit(0.3, false);
+        impact.after_b.angular *= 3.0;
+        assert!(broken(&world, &impact).contains(&Law::Energy));
+    }
+
+    #[test]
+    fn a_wrong_normal_and_no_number_are_found() {
+        let (world, mut impact) = hit(0.0, false);
+        impact.contact.normal = (impact.contact.normal + DVec3::Y * 0.01).normalize();
+        assert_eq!(broken(&world, &impact), [Law::Normal], "the rest is held against the shapes' own normal");
+        impact.after_a.linear.x = f64::NAN;
+        assert!(broken(&world, &impact).contains(&Law::LinearMomentum));
+    }
+}

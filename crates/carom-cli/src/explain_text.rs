@@ -126,7 +126,7 @@ impl Story<'_> {
             headline("STEP 4  All this is linear: some multiple f gives the speed that is wanted", false);
         let _ = writeln!(
             text,
-            "  closing     v_c = (v_b − v_a)·n = {} m/s   (velocities of the points)",
+            "  closing     v_c = (v_b − v_a)·n = {} m/s, speed of the points",
             number(closing)
         );
         let _ = writeln!(
