@@ -42,6 +42,8 @@ pub mod limits {
     pub const SPEED: f64 = 1e6;
     /// Masses, kg.
     pub const MASS: RangeInclusive<f64> = 1e-9..=1e15;
+    /// Principal moments of inertia, kg·m², that a user gives: the lightest speck's and the heaviest body's at most.
+    pub const INERTIA: RangeInclusive<f64> = 1e-24..=1e34;
 
     /// Refuses a `value` outside `range` or not finite.
     pub fn within(field: &str, value: f64, range: RangeInclusive<f64>, unit: &str) -> Result<(), Invalid> {

@@ -263,3 +263,28 @@ fn turn_about(spin: &mut DQuat, local: &mut DVec3, axis: usize, rate_per_momentu
     local[m] = c * x + s * y;
     local[n] = c * y - s * x;
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_composition_is_of_fourth_order_and_keeps_the_energy() {
+        let mass = BodyMass { mass: 1.0, moments: DVec3::new(1.0, 2.0, 3.0), ..BodyMass::INFINITE };
+        let constants = Constants::new(&mass, DQuat::IDENTITY, DVec3::ZERO);
+        let start = RigidState { angular_momentum: DVec3::new(0.2, 0.5, 0.3), ..RigidState::REST };
+        let energy = |state: &RigidState| constants.angular_velocity(state).dot(state.angular_momentum);
+        let after = |steps: usize| {
+            let mut state = start;
+            for _ in 0..steps {
+                state = fly(&state, &constants, &Influence::default(), 8.0 / steps as f64);
+            }
+            state
+        };
+        let truth = after(4096);
+        let error = |steps| (after(steps).rotation - truth.rotation).length();
+        let (coarse, fine) = (error(16), error(32));
+        assert!(coarse < 1e-4 && (13.0..20.0).contains(&(coarse / fine)), "{coarse} {fine}");
+        assert!((energy(&truth) / energy(&start) - 1.0).abs() < 1e-12);
+    }
+}

@@ -1,28 +1,307 @@
 //! Convex polyhedra.
 
-use crate::error::Invalid;
+use crate::error::{Invalid, limits};
 use crate::math::DVec3;
+use crate::mesh::check_points;
+use quickhull::quickhull;
+use std::ops::Range;
+
+mod quickhull;
+
+/// Points this close to a plane, as a fraction of the hull's extent, lie in it.
+const FLATNESS: f64 = 1e-10;
 
 /// A convex polyhedron.
 #[derive(Clone, Debug)]
-pub struct Hull {}
+pub struct Hull {
+    vertices: Vec<DVec3>,
+    triangles: Vec<[u32; 3]>,
+    faces: Vec<Face>,
+    /// The corners of all faces, one face after the other.
+    outlines: Vec<u32>,
+}
+
+/// A flat side: triangles in one plane taken together.
+#[derive(Clone, Debug)]
+struct Face {
+    /// Outward, unit length.
+    normal: DVec3,
+    /// Where its corners stand in `outlines`, anticlockwise from outside.
+    corners: Range<usize>,
+}
 
 impl Hull {
-    /// The convex hull of `points` (m).
+    /// The convex hull of `points` (m): its corners are some of the points, to the last bit.
     ///
     /// # Errors
-    /// If a point is not finite or the hull has no volume.
-    pub fn new(_points: &[DVec3]) -> Result<Self, Invalid> {
-        unimplemented!()
+    /// If a point is not finite or beyond the largest length, or the hull has no volume: fewer than four points, all of
+    /// them (to 10⁻⁹ of their extent) in a plane, or none further than 10⁻⁶ m from the others.
+    pub fn new(points: &[DVec3]) -> Result<Self, Invalid> {
+        check_points("points", points)?;
+        let mut distinct: Vec<DVec3> = points.iter().map(|&point| point + DVec3::ZERO).collect();
+        distinct.sort_unstable_by(|one, other| {
+            one.x.total_cmp(&other.x).then(one.y.total_cmp(&other.y)).then(one.z.total_cmp(&other.z))
+        });
+        distinct.dedup();
+        let flat = || {
+            let found = format!("{} points ({} distinct) in a plane", points.len(), distinct.len());
+            let expected = "at least four points that do not lie in one plane, more than 1e-6 m apart";
+            Invalid::new("points", found, expected)
+        };
+        let low = distinct.iter().copied().fold(DVec3::INFINITY, DVec3::min);
+        let high = distinct.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
+        let extent = (high - low).max_element();
+        if distinct.len() < 4 || extent < *limits::LENGTH.start() {
+            return Err(flat());
+        }
+        let tolerance = FLATNESS * extent;
+        let hull = Self::spanned(&distinct, tolerance).ok_or_else(flat)?;
+        // Points within a face or an edge may have come along. Without them the hull is the same.
+        let true_corners: Vec<DVec3> = (0..hull.vertices.len() as u32)
+            .filter(|&vertex| hull.outlines.iter().filter(|&&corner| corner == vertex).count() > 2)
+            .map(|vertex| hull.vertices[vertex as usize])
+            .collect();
+        if true_corners.len() == hull.vertices.len() {
+            return Ok(hull);
+        }
+        Ok(Self::spanned(&true_corners, tolerance)
+            .filter(|lean| lean.holds(&distinct, 10.0 * tolerance))
+            .unwrap_or(hull))
+    }
+
+    fn spanned(points: &[DVec3], tolerance: f64) -> Option<Self> {
+        let found = quickhull(points, tolerance)?;
+        let mut used: Vec<usize> = found.iter().flatten().copied().collect();
+        used.sort_unstable();
+        used.dedup();
+        let renumbered = |index: usize| used.partition_point(|&other| other < index) as u32;
+        let triangles = found.iter().map(|triangle| triangle.map(renumbered)).collect();
+        let vertices = used.iter().map(|&index| points[index]).collect();
+        let mut hull = Self { vertices, triangles, faces: Vec::new(), outlines: Vec::new() };
+        hull.find_faces(10.0 * tolerance);
+        Some(hull)
+    }
+
+    fn holds(&self, points: &[DVec3], tolerance: f64) -> bool {
+        self.faces.iter().all(|face| {
+            let corner = self.vertices[self.outlines[face.corners.start] as usize];
+            points.iter().all(|&point| (point - corner).dot(face.normal) <= tolerance)
+        })
     }
 
     /// Its corners, m.
     pub fn vertices(&self) -> &[DVec3] {
-        unimplemented!()
+        &self.vertices
     }
 
     /// Its surface as triangles, anticlockwise from outside.
     pub fn triangles(&self) -> &[[u32; 3]] {
-        unimplemented!()
+        &self.triangles
+    }
+
+    /// The flat side whose outward normal is closest to `direction`: its number and its corners, anticlockwise from
+    /// outside.
+    pub(crate) fn face_towards(&self, direction: DVec3) -> (u32, &[u32]) {
+        let mut best = (0, f64::NEG_INFINITY);
+        for (index, face) in self.faces.iter().enumerate() {
+            let along = face.normal.dot(direction);
+            if along > best.1 {
+                best = (index, along);
+            }
+        }
+        let corners = self.faces.get(best.0).map_or(0..0, |face| face.corners.clone());
+        (best.0 as u32, &self.outlines[corners])
+    }
+
+    /// A number of its own for the side between two corners, the same from both ends.
+    pub(crate) fn edge_number(&self, one: u32, other: u32) -> u32 {
+        let count = self.vertices.len() as u32;
+        one.min(other).wrapping_mul(count).wrapping_add(one.max(other))
+    }
+
+    /// The outward normals of its flat sides, unit length.
+    pub(crate) fn face_normals(&self) -> impl Iterator<Item = DVec3> {
+        self.faces.iter().map(|face| face.normal)
+    }
+
+    /// Joins triangles whose corners lie within `tolerance` (m) of a common plane. The largest triangles set the planes,
+    /// so that slivers, whose normals are rounding, join a neighbour instead of making a side of their own.
+    fn find_faces(&mut self, tolerance: f64) {
+        let corners = |triangle: [u32; 3]| triangle.map(|index| self.vertices[index as usize]);
+        let cross = |triangle: [u32; 3]| {
+            let [a, b, c] = corners(triangle);
+            (b - a).cross(c - a)
+        };
+        let mut order: Vec<usize> = (0..self.triangles.len()).collect();
+        let areas: Vec<f64> = self.triangles.iter().map(|&triangle| cross(triangle).length()).collect();
+        order.sort_unstable_by(|&one, &other| areas[other].total_cmp(&areas[one]).then(one.cmp(&other)));
+
+        let mut face_of: Vec<Option<usize>> = vec![None; self.triangles.len()];
+        let (mut faces, mut outlines) = (Vec::new(), Vec::new());
+        for &seed in &order {
+            if face_of[seed].is_some() {
+                continue;
+            }
+            let normal = cross(self.triangles[seed]).normalize_or_zero();
+            if normal == DVec3::ZERO {
+                continue;
+            }
+            let [origin, ..] = corners(self.triangles[seed]);
+            let mut sides: Vec<(u32, u32)> = Vec::new();
+            for (index, &triangle) in self.triangles.iter().enumerate() {
+                let in_plane =
+                    corners(triangle).iter().all(|&point| (point - origin).dot(normal).abs() <= tolerance);
+                // Both sides of a plate thinner than the tolerance lie in the plane; only one looks this way.
+                if face_of[index].is_none() && in_plane && cross(triangle).dot(normal) >= 0.0 {
+                    face_of[index] = Some(faces.len());
+                    sides.extend((0..3).map(|side| (triangle[side], triangle[(side + 1) % 3])));
+                }
+            }
+            let start = outlines.len();
+            match outline_of(&sides) {
+                Some(outline) => outlines.extend(outline),
+                None => outlines.extend(self.triangles[seed]),
+            }
+            faces.push(Face { normal, corners: start..outlines.len() });
+        }
+        self.faces = faces;
+        self.outlines = outlines;
+    }
+}
+
+/// The closed line that is left of `sides` when those passed both ways are gone; `None` if it is not one line.
+fn outline_of(sides: &[(u32, u32)]) -> Option<Vec<u32>> {
+    let border: Vec<(u32, u32)> =
+        sides.iter().copied().filter(|&(from, to)| !sides.contains(&(to, from))).collect();
+    let (start, mut next) = *border.first()?;
+    let mut outline = vec![start];
+    while next != start {
+        outline.push(next);
+        if outline.len() > border.len() {
+            return None;
+        }
+        let here = next;
+        let mut onward = border.iter().filter(|side| side.0 == here);
+        next = onward.next()?.1;
+        if onward.next().is_some() {
+            return None;
+        }
+    }
+    (outline.len() == border.len()).then_some(outline)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mass::MassProperties;
+    use crate::math::{DQuat, rotation_from_vector};
+    use std::collections::BTreeSet;
+
+    /// Numbers from 0 to 1, the same ones every time (Marsaglia 2003).
+    fn numbers(seed: u64) -> impl FnMut() -> f64 {
+        let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
+        move || {
+            state ^= state << 13;
+            state ^= state >> 7;
+            state ^= state << 17;
+            (state >> 11) as f64 / (1_u64 << 53) as f64
+        }
+    }
+
+    fn cube_cloud(turn: DQuat) -> Vec<DVec3> {
+        let mut number = numbers(1);
+        let mut points: Vec<DVec3> = (0..300)
+            .map(|_| turn * (DVec3::new(number(), number(), number()) * 1.9 - DVec3::splat(0.95)))
+            .collect();
+        for corner in 0..8 {
+            let side = |bit: u32| if corner >> bit & 1 == 1 { 1.0 } else { -1.0 };
+            points.insert(37 * corner, turn * DVec3::new(side(0), side(1), side(2)));
+        }
+        points
+    }
+
+    fn assert_closed_and_convex(hull: &Hull, points: &[DVec3], tolerance: f64) {
+        let sides: Vec<(u32, u32)> =
+            hull.triangles().iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]).collect();
+        let distinct: BTreeSet<(u32, u32)> = sides.iter().copied().collect();
+        assert_eq!(distinct.len(), sides.len(), "a side passed twice the same way");
+        assert!(sides.iter().all(|&(a, b)| distinct.contains(&(b, a))), "an open side");
+        assert_eq!(hull.vertices().len() + hull.triangles().len(), sides.len() / 2 + 2, "Euler");
+        for normal in hull.face_normals() {
+            let highest = |points: &[DVec3]| points.iter().map(|p| p.dot(normal)).fold(f64::MIN, f64::max);
+            assert!(highest(points) - highest(hull.vertices()) <= tolerance);
+            let (_, corners) = hull.face_towards(normal);
+            assert!(corners.len() >= 3);
+            for &corner in corners {
+                let height = hull.vertices()[corner as usize].dot(normal);
+                assert!((height - highest(hull.vertices())).abs() <= tolerance, "{height}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_cloud_in_a_cube_becomes_the_cube() {
+        for turn in [DQuat::IDENTITY, rotation_from_vector(DVec3::new(0.4, -1.1, 0.7))] {
+            let points = cube_cloud(turn);
+            let hull = Hull::new(&points).unwrap();
+            assert_eq!((hull.vertices().len(), hull.triangles().len(), hull.faces.len()), (8, 12, 6));
+            assert_closed_and_convex(&hull, &points, 1e-12);
+            assert!(hull.faces.iter().all(|face| face.corners.len() == 4));
+            assert!(hull.vertices().iter().all(|vertex| points.contains(vertex)), "to the last bit");
+            let mass = MassProperties::polyhedron(hull.vertices(), hull.triangles(), 700.0);
+            let cube = MassProperties::cuboid(DVec3::splat(2.0), 700.0);
+            assert!((mass.mass - cube.mass).abs() < 1e-9 * cube.mass);
+            assert!(mass.center.length() < 1e-12);
+            assert!(mass.inertia.abs_diff_eq(cube.inertia, 1e-9 * cube.inertia.x_axis.x));
+        }
+    }
+
+    #[test]
+    fn hulls_of_many_clouds_are_closed_and_hold_their_points() {
+        let mut number = numbers(2);
+        for round in 0..240 {
+            let count = 8 + (number() * 150.0) as usize;
+            let scale = 10_f64.powi(round % 9 - 4);
+            let turn = rotation_from_vector(DVec3::new(number(), number(), number()) * 3.0);
+            let points: Vec<DVec3> = (0..count)
+                .map(|_| {
+                    let p = DVec3::new(number(), number(), number());
+                    let p = match round % 4 {
+                        0 => p,
+                        1 => (p * 4.0).floor(),
+                        2 => (p - DVec3::splat(0.5)).normalize(),
+                        _ => p * DVec3::new(1.0, 1e-3, 1.0),
+                    };
+                    turn * p * scale
+                })
+                .collect();
+            let hull = Hull::new(&points).unwrap();
+            for normal in hull.face_normals() {
+                let highest = |p: &[DVec3]| p.iter().map(|p| p.dot(normal)).fold(f64::MIN, f64::max);
+                assert!(highest(&points) - highest(hull.vertices()) <= 1e-9 * scale, "round {round}");
+            }
+            assert!(MassProperties::polyhedron(hull.vertices(), hull.triangles(), 1.0).mass > 0.0, "{round}");
+        }
+    }
+
+    #[test]
+    fn what_has_no_volume_is_refused() {
+        let field = |points: &[DVec3]| Hull::new(points).map(|_| ()).unwrap_err().field;
+        assert_eq!(field(&[]), "points");
+        assert_eq!(field(&[DVec3::X, DVec3::Y, DVec3::Z]), "points");
+        assert_eq!(field(&[DVec3::X; 20]), "points");
+        let line: Vec<DVec3> = (0..9).map(|i| DVec3::new(1.0, 2.0, 3.0) * f64::from(i)).collect();
+        assert_eq!(field(&line), "points");
+        let turn = rotation_from_vector(DVec3::new(0.4, -1.1, 0.7));
+        let plane: Vec<DVec3> =
+            (0..25).map(|i| turn * DVec3::new(f64::from(i % 5), 0.0, f64::from(i / 5))).collect();
+        assert_eq!(field(&plane), "points");
+        let speck: Vec<DVec3> = cube_cloud(DQuat::IDENTITY).iter().map(|&point| point * 1e-8).collect();
+        assert_eq!(field(&speck), "points");
+        let mut broken = cube_cloud(DQuat::IDENTITY);
+        broken[5].z = f64::INFINITY;
+        assert_eq!(field(&broken), "points[5][2]");
+        broken[5].z = -3e6;
+        assert_eq!(field(&broken), "points[5][2]");
     }
 }

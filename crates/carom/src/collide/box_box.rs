@@ -71,7 +71,7 @@ pub(crate) fn manifold(a: &Cuboid, b: &Cuboid, margin: f64) -> Option<Manifold> 
             None
         }
     };
-    let tolerance = 1e3 * ROUNDING * pair.size();
+    let tolerance = 10.0 * ROUNDING * pair.size();
     let least = patch
         .iter()
         .flat_map(|patch| patch.points())
@@ -84,7 +84,8 @@ pub(crate) fn manifold(a: &Cuboid, b: &Cuboid, margin: f64) -> Option<Manifold> 
         let found = || Manifold::single(normal, point).placed(&a.pose);
         return (point.separation <= margin).then(found);
     }
-    let near = patch?.within(margin);
+    let mut near = patch?;
+    near.level_and_keep((axis.gap, tolerance), margin);
     (!near.points().is_empty()).then(|| Manifold::reduced(axis.normal, near.points()).placed(&a.pose))
 }
 
@@ -118,8 +119,8 @@ impl Pair {
     /// disjoint, and the shortest way apart if they are not. Where axes tie but for rounding, faces of `a` go before
     /// faces of `b`, and both before edges.
     fn best_axis(&self) -> Axis {
-        let (half_a, half_b, axes, center) = (self.a.half, self.b.half, &self.b.axes, self.b.center);
-        let away = |normal: DVec3| if center.dot(normal) < 0.0 { -normal } else { normal };
+        let (half_a, half_b, axes, center) = (self.a.half, self.b.half, self.b.axes, self.b.center);
+        let away = |normal: DVec3| if self.b.center.dot(normal) < 0.0 { -normal } else { normal };
         let tolerance = ROUNDING * self.size();
 
         let reach_b = axes[0].abs() * half_b.x + axes[1].abs() * half_b.y + axes[2].abs() * half_b.z;
@@ -136,27 +137,35 @@ impl Pair {
                 best = Axis { normal: away(axes[k]), gap, source: Source::FaceB };
             }
         }
+        // As plain numbers: columns[j][i] is the cosine of the angle between a's axis i and b's axis j.
+        let columns = axes.map(|axis| axis.to_array());
+        let (half_a, half_b, center) = (half_a.to_array(), half_b.to_array(), center.to_array());
         for j in 0..3 {
-            let (next, last) = ((j + 1) % 3, (j + 2) % 3);
+            let (next, last) = (columns[(j + 1) % 3], columns[(j + 2) % 3]);
+            let (half_next, half_last) = (half_b[(j + 1) % 3], half_b[(j + 2) % 3]);
+            let axis = columns[j];
             for i in 0..3 {
-                // Not yet of unit length: `gap` below is the true one times the sine of the edges' angle.
-                let cross = DVec3::AXES[i].cross(axes[j]);
-                let sine_squared = cross.length_squared();
-                let reach_b = half_b[next] * axes[last][i].abs() + half_b[last] * axes[next][i].abs();
-                let gap = center.dot(cross).abs() - half_a.dot(cross.abs()) - reach_b;
+                // The cross product of the edges has two components: −axis[v] along u and axis[u] along v. Its length is
+                // the sine of their angle; until it is divided by that, so is the gap.
+                let (u, v) = ((i + 1) % 3, (i + 2) % 3);
+                let sine_squared = axis[u] * axis[u] + axis[v] * axis[v];
+                let apart = (center[v] * axis[u] - center[u] * axis[v]).abs();
+                let reach_a = half_a[u] * axis[v].abs() + half_a[v] * axis[u].abs();
+                let reach_b = half_next * last[i].abs() + half_last * next[i].abs();
+                let scaled = apart - reach_a - reach_b;
                 // A sine is at most 1: a gap below zero only falls when it is divided by it.
                 let bound = best.gap + tolerance;
-                let hopeless = if gap <= 0.0 {
-                    gap <= bound
+                let hopeless = if scaled <= 0.0 {
+                    scaled <= bound
                 } else {
-                    bound > 0.0 && gap * gap <= bound * bound * sine_squared
+                    bound > 0.0 && scaled * scaled <= bound * bound * sine_squared
                 };
                 if hopeless || sine_squared <= PARALLEL {
                     continue;
                 }
                 let sine = sine_squared.sqrt();
-                let normal = away(cross / sine);
-                let gap = if sine_squared < NEARLY_PARALLEL { self.gap(normal) } else { gap / sine };
+                let normal = away(DVec3::AXES[i].cross(axes[j]) / sine);
+                let gap = if sine_squared < NEARLY_PARALLEL { self.gap(normal) } else { scaled / sine };
                 if gap > bound {
                     best = Axis { normal, gap, source: Source::Edges(i, j) };
                 }
@@ -197,11 +206,8 @@ impl Pair {
         let (from_a, from_b) = (closest_edge(&self.a, &self.b), closest_edge(&self.b, &self.a));
         let found = if from_a.distance <= from_b.distance { from_a } else { from_b.flipped() };
         let sized = found.distance > 1e-9 * self.size();
-        let (normal, separation) = if sized {
-            ((found.on_b - found.on_a) / found.distance, found.distance)
-        } else {
-            (axis.normal, axis.gap)
-        };
+        let (normal, separation) =
+            if sized { (found.normal, found.distance) } else { (axis.normal, axis.gap) };
         let point = ContactPoint {
             point: 0.5 * (found.on_a + found.on_b),
             separation,
@@ -215,6 +221,8 @@ impl Pair {
 /// The closest points of two boxes.
 struct Closest {
     distance: f64,
+    /// Unit vector from `a` to `b`; zero where they touch.
+    normal: DVec3,
     on_a: DVec3,
     on_b: DVec3,
     feature_a: Feature,
@@ -225,6 +233,7 @@ impl Closest {
     fn flipped(self) -> Self {
         Self {
             distance: self.distance,
+            normal: -self.normal,
             on_a: self.on_b,
             on_b: self.on_a,
             feature_a: self.feature_b,
@@ -237,6 +246,7 @@ impl Closest {
 fn closest_edge(a: &Block, b: &Block) -> Closest {
     let mut best = Closest {
         distance: f64::INFINITY,
+        normal: DVec3::ZERO,
         on_a: DVec3::ZERO,
         on_b: DVec3::ZERO,
         feature_a: Feature::Surface,
@@ -255,8 +265,10 @@ fn closest_edge(a: &Block, b: &Block) -> Closest {
             if distance < best.distance {
                 let corner = if s > 0.0 { start | 1 << axis } else { start };
                 let at_end = 1.0 - s.abs() <= 1e-9;
+                let outward = offset.normalize_or_zero();
                 best = Closest {
                     distance,
+                    normal: -b.turn(outward),
                     on_a: b.place(local),
                     on_b: b.place(local - offset),
                     feature_a: if at_end {
@@ -264,7 +276,7 @@ fn closest_edge(a: &Block, b: &Block) -> Closest {
                     } else {
                         Feature::Edge(cuboid::edge_number(axis, start))
                     },
-                    feature_b: cuboid::feature_towards(offset.normalize_or_zero()),
+                    feature_b: cuboid::feature_towards(outward),
                 };
             }
         }

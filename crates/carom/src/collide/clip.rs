@@ -50,17 +50,21 @@ impl Overlap {
         &self.points[..self.count]
     }
 
-    /// Those no further apart than `margin`, in the same order.
-    pub(crate) fn within(mut self, margin: f64) -> Self {
+    /// Gives the contacts within `tolerance` of the least separation `least` just that, and drops those further apart
+    /// than `margin`.
+    pub(crate) fn level_and_keep(&mut self, (least, tolerance): (f64, f64), margin: f64) {
         let mut kept = 0;
         for index in 0..self.count {
-            if self.points[index].separation <= margin {
-                self.points[kept] = self.points[index];
+            let mut point = self.points[index];
+            if point.separation <= least + tolerance {
+                point.separation = least;
+            }
+            if point.separation <= margin {
+                self.points[kept] = point;
                 kept += 1;
             }
         }
         self.count = kept;
-        self
     }
 
     /// The same contacts with `a` and `b` exchanged.
@@ -138,42 +142,36 @@ pub(crate) fn overlap(reference: &Block, incident: &Block, normal: DVec3) -> Ove
     let tolerance = 1e-10 * reference.half.max_element().min(incident.half.max_element());
     for (direction, limit) in [(0, reference.half[u]), (1, reference.half[v])] {
         for positive in [false, true] {
-            polygon = clip(&polygon, (direction, positive), limit, tolerance);
+            clip(&mut polygon, (direction, positive), limit, tolerance);
         }
     }
 
-    let contact = |index: usize| {
-        let vertex = &polygon.vertices[index % polygon.count];
+    let mut overlap = Overlap { points: [ContactPoint::NONE; 8], count: polygon.count };
+    for index in 0..polygon.count {
+        let vertex = &polygon.vertices[index];
         let before = polygon.vertices[(index + polygon.count - 1) % polygon.count].side;
         let mut foot = DVec3::ZERO;
         (foot[u], foot[v]) = (vertex.foot[0], vertex.foot[1]);
         foot[axis] = reference.half[axis] * upward[axis].signum();
         let (feature_a, feature_b) = features(vertex, before, (face, foot), &incident_corners);
-        ContactPoint {
+        overlap.points[index] = ContactPoint {
             point: reference.place(foot) + normal * (0.5 * vertex.separation),
             separation: vertex.separation,
             feature_a,
             feature_b,
-        }
-    };
-    let count = polygon.count;
-    if count == 0 {
-        let none = ContactPoint {
-            point: DVec3::ZERO,
-            separation: f64::INFINITY,
-            feature_a: Feature::Surface,
-            feature_b: Feature::Surface,
         };
-        return Overlap { points: [none; 8], count };
     }
-    Overlap { points: std::array::from_fn(contact), count }
+    overlap
 }
 
-/// The part of the polygon with ± foot[direction] ≤ `limit`. A corner within `tolerance` of the border is on it: it stays
+/// Keeps the part of the polygon with ± foot[direction] ≤ `limit`. A corner within `tolerance` of the border is on it: it stays
 /// as it is, and no second one is made beside it.
-fn clip(polygon: &Polygon, (direction, positive): (usize, bool), limit: f64, tolerance: f64) -> Polygon {
-    let mut clipped = Polygon { count: 0, ..*polygon };
+fn clip(polygon: &mut Polygon, (direction, positive): (usize, bool), limit: f64, tolerance: f64) {
     let beyond = |vertex: &Vertex| vertex.foot[direction] * if positive { 1.0 } else { -1.0 } - limit;
+    if polygon.vertices[..polygon.count].iter().all(|vertex| beyond(vertex) <= tolerance) {
+        return;
+    }
+    let mut clipped = Polygon { count: 0, ..*polygon };
     let border = Side::Reference(direction, positive);
     for index in 0..polygon.count {
         let here = polygon.vertices[index];
@@ -197,7 +195,7 @@ fn clip(polygon: &Polygon, (direction, positive): (usize, bool), limit: f64, tol
             clipped.push(crossing(here.side));
         }
     }
-    clipped
+    *polygon = clipped;
 }
 
 /// What touches at a corner of the polygon, from the sides that meet there: `before` ends and `vertex.side` begins.

@@ -19,7 +19,7 @@ pub struct ContactPoint {
 
 impl ContactPoint {
     /// Fills the places that hold no point.
-    const NONE: ContactPoint = ContactPoint {
+    pub(crate) const NONE: ContactPoint = ContactPoint {
         point: DVec3::ZERO,
         separation: 0.0,
         feature_a: Feature::Surface,
@@ -72,10 +72,10 @@ impl Manifold {
 
     /// The manifold of the best four of `candidates`, in their order if there are no more than four.
     ///
-    /// Keeps the deepest; then the one farthest from it; then on each side of the line through these two the one
-    /// that spans the largest triangle with them (Gregorius, *Robust Contact Creation for Physics Simulations*,
-    /// GDC 2015). Candidates that differ by rounding count as equal, and the first of equals is taken, so that
-    /// noise does not change the choice.
+    /// Keeps the deepest; then the one farthest from it; then the one that spans the largest triangle with these two;
+    /// then the one that adds the largest triangle to this one (Gregorius, *Robust Contact Creation for Physics
+    /// Simulations*, GDC 2015). Candidates that differ by rounding count as equal: the deepest of equals is taken, and
+    /// of those the first, so that noise does not change the choice.
     pub(crate) fn reduced(normal: DVec3, candidates: &[ContactPoint]) -> Self {
         let mut manifold = Self::new(normal);
         if candidates.len() <= 4 {
@@ -85,22 +85,36 @@ impl Manifold {
         let origin = candidates[0].point;
         let extent = candidates.iter().map(|c| c.point.distance(origin)).fold(0.0, f64::max);
         let (length, area) = (ROUNDING * extent, ROUNDING * extent * extent);
+        let deepest_of_largest = |tolerance: f64, value: &dyn Fn(&ContactPoint) -> f64| {
+            let largest = candidates.iter().map(value).fold(f64::NEG_INFINITY, f64::max);
+            let equal = || candidates.iter().filter(|c| value(c) >= largest - tolerance);
+            let least = equal().map(|c| c.separation).fold(f64::INFINITY, f64::min);
+            *equal().find(|c| c.separation <= least + length).unwrap_or(&candidates[0])
+        };
+        // Twice the area of a triangle seen along the normal, positive if its corners run anticlockwise.
+        let spanned = |a: DVec3, b: DVec3, c: DVec3| normal.dot((b - a).cross(c - a));
 
-        let deepest = candidates[first_of_largest(candidates, length, |c| -c.separation)];
+        let deepest = deepest_of_largest(length, &|c| -c.separation);
+        let a = deepest.point;
+        let farthest = deepest_of_largest(area, &|c| c.point.distance_squared(a));
+        let b = farthest.point;
         manifold.push(deepest);
-        let distance_squared = |c: &ContactPoint| c.point.distance_squared(deepest.point);
-        let farthest = candidates[first_of_largest(candidates, area, distance_squared)];
-        if distance_squared(&farthest) <= area {
+        if b.distance_squared(a) <= area {
             return manifold;
         }
         manifold.push(farthest);
-        let across = normal.cross(farthest.point - deepest.point);
-        for side in [across, -across] {
-            let spanned = |c: &ContactPoint| side.dot(c.point - deepest.point);
-            let widest = candidates[first_of_largest(candidates, area, spanned)];
-            if spanned(&widest) > area {
-                manifold.push(widest);
-            }
+        let widest = deepest_of_largest(area, &|c| spanned(a, b, c.point).abs());
+        if spanned(a, b, widest.point).abs() <= area {
+            return manifold;
+        }
+        manifold.push(widest);
+        let [a, b, c] =
+            if spanned(a, b, widest.point) > 0.0 { [a, b, widest.point] } else { [b, a, widest.point] };
+        let added =
+            |p: &ContactPoint| spanned(b, a, p.point).max(spanned(c, b, p.point)).max(spanned(a, c, p.point));
+        let last = deepest_of_largest(area, &added);
+        if added(&last) > area {
+            manifold.push(last);
         }
         manifold
     }
@@ -122,14 +136,4 @@ impl Manifold {
         }
         self
     }
-}
-
-/// The index of the candidate with the largest value: of those within `tolerance` of each other, the first.
-fn first_of_largest(
-    candidates: &[ContactPoint],
-    tolerance: f64,
-    value: impl Fn(&ContactPoint) -> f64,
-) -> usize {
-    let largest = candidates.iter().map(&value).fold(f64::NEG_INFINITY, f64::max);
-    candidates.iter().position(|c| value(c) >= largest - tolerance).unwrap_or(0)
 }

@@ -1,15 +1,179 @@
-//! Every pair that has no kernel of its own, through parry3d.
+//! Every pair that has no kernel of its own: hulls, meshes, tapered capsules, cylinders and cones, with anything.
+//!
+//! A convex shape is a *core* and a radius around it (`convex.rs`). parry, in double precision, finds the direction of
+//! least gap between two cores: GJK where they are apart, EPA where they overlap (`axis.rs`). The gap along that
+//! direction is then taken from the cores' support points, so it never exceeds the true distance, whatever parry's
+//! tolerance. Contact points come from clipping the two flat sides that face each other (`clip.rs`). A mesh is a set of
+//! triangles, each a core of its own (`surface.rs`). A plane needs nothing but support points.
 
-use crate::collide::Manifold;
-use crate::math::Pose;
+mod axis;
+mod clip;
+mod convex;
+mod surface;
+
+use crate::collide::{ContactPoint, Manifold};
+use crate::math::{DVec3, Pose};
+use crate::report::Feature;
 use crate::shape::Shape;
+use clip::Candidates;
+use convex::Convex;
 
-/// As [`crate::collide::separation`].
-pub(crate) fn separation(_a: &Shape, _pose_a: &Pose, _b: &Shape, _pose_b: &Pose) -> f64 {
-    unimplemented!()
+/// A shape as this seam sees it.
+enum Kind<'a> {
+    Convex(Convex<'a>),
+    Mesh(&'a crate::mesh::Mesh),
+    Plane,
 }
 
-/// As [`crate::collide::manifolds`].
-pub(crate) fn manifolds(_a: (&Shape, &Pose), _b: (&Shape, &Pose), _margin: f64, _out: &mut Vec<Manifold>) {
-    unimplemented!()
+impl<'a> Kind<'a> {
+    fn of(shape: &'a Shape) -> Self {
+        match (Convex::of(shape), shape) {
+            (Some(convex), _) => Kind::Convex(convex),
+            (None, Shape::Mesh(mesh)) => Kind::Mesh(mesh),
+            (None, _) => Kind::Plane,
+        }
+    }
 }
+
+/// As [`crate::collide::separation`]; continuous, and never more than the true distance.
+///
+/// From a mesh it is cut off at half the other shape's extent or the gap between the boxes around them, whichever is
+/// larger. Two planes, and what has no finite pose, are infinitely far apart.
+pub(crate) fn separation(a: &Shape, pose_a: &Pose, b: &Shape, pose_b: &Pose) -> f64 {
+    if !is_finite(pose_a) || !is_finite(pose_b) {
+        return f64::INFINITY;
+    }
+    match (Kind::of(a), Kind::of(b)) {
+        (Kind::Convex(a), Kind::Convex(b)) => {
+            axis::least_gap(&a.core, &b.core, &pose_a.relative(pose_b)).gap - a.radius - b.radius
+        }
+        (Kind::Plane, Kind::Convex(b)) => plane_separation(pose_a, &b, pose_b),
+        (Kind::Convex(a), Kind::Plane) => plane_separation(pose_b, &a, pose_a),
+        (Kind::Plane, Kind::Mesh(mesh)) => surface::plane_separation(pose_a, mesh, pose_b),
+        (Kind::Mesh(mesh), Kind::Plane) => surface::plane_separation(pose_b, mesh, pose_a),
+        (Kind::Mesh(mesh), _) => surface::separation(mesh, pose_a, b, pose_b),
+        (_, Kind::Mesh(mesh)) => surface::separation(mesh, pose_b, a, pose_a),
+        (Kind::Plane, Kind::Plane) => f64::INFINITY,
+    }
+}
+
+/// As [`crate::collide::manifolds`]; one for each triangle of a mesh that is struck.
+pub(crate) fn manifolds(a: (&Shape, &Pose), b: (&Shape, &Pose), margin: f64, out: &mut Vec<Manifold>) {
+    if !is_finite(a.1) || !is_finite(b.1) {
+        return;
+    }
+    let first = out.len();
+    let (kind_a, kind_b) = (Kind::of(a.0), Kind::of(b.0));
+    // The functions below put the plane or the mesh first.
+    let mut turned = false;
+    match (&kind_a, &kind_b) {
+        (Kind::Convex(convex_a), Kind::Convex(convex_b)) => {
+            out.extend(convex_manifold((convex_a, a.1), (convex_b, b.1), margin, None));
+        }
+        (Kind::Plane, Kind::Convex(convex)) => out.extend(plane_manifold(a.1, convex, b.1, margin)),
+        (Kind::Plane, Kind::Mesh(mesh)) => out.extend(surface::plane_manifold(a.1, mesh, b.1, margin)),
+        (Kind::Mesh(mesh), Kind::Convex(_) | Kind::Mesh(_)) => {
+            surface::manifolds(mesh, a.1, b, margin, out);
+        }
+        (Kind::Plane, Kind::Plane) => {}
+        (Kind::Convex(convex), Kind::Plane) => {
+            turned = true;
+            out.extend(plane_manifold(b.1, convex, a.1, margin));
+        }
+        (Kind::Mesh(mesh), Kind::Plane) => {
+            turned = true;
+            out.extend(surface::plane_manifold(b.1, mesh, a.1, margin));
+        }
+        (Kind::Convex(_), Kind::Mesh(mesh)) => {
+            turned = true;
+            surface::manifolds(mesh, b.1, a, margin, out);
+        }
+    }
+    if turned {
+        out[first..].iter_mut().for_each(|manifold| *manifold = swapped(manifold));
+    }
+}
+
+fn is_finite(pose: &Pose) -> bool {
+    pose.position.is_finite() && pose.rotation.is_finite()
+}
+
+fn swapped(manifold: &Manifold) -> Manifold {
+    let mut swapped = Manifold::new(-manifold.normal);
+    for point in manifold.points() {
+        let (feature_a, feature_b) = (point.feature_b, point.feature_a);
+        swapped.push(ContactPoint { feature_a, feature_b, ..*point });
+    }
+    swapped
+}
+
+/// The manifold of two convex shapes, if they come within `margin`. A `correct`ion may turn the normal (in a's frame) that
+/// the shapes alone would give; then only points where the two sides face each other along it count.
+fn convex_manifold(
+    a: (&Convex, &Pose),
+    b: (&Convex, &Pose),
+    margin: f64,
+    correct: Option<&dyn Fn(DVec3) -> DVec3>,
+) -> Option<Manifold> {
+    let (convex_a, convex_b) = (a.0, b.0);
+    let inner = a.1.relative(b.1);
+    let mut least = axis::least_gap(&convex_a.core, &convex_b.core, &inner);
+    let radii = convex_a.radius + convex_b.radius;
+    if least.gap - radii > margin {
+        return None;
+    }
+    let normal = correct.map_or(least.normal, |correct| correct(least.normal));
+    let corrected = normal != least.normal;
+    if corrected {
+        least = axis::Axis { normal, ..least };
+    }
+    let mut candidates = Candidates::new(margin);
+    clip::contacts(convex_a, convex_b, &inner, normal, &mut candidates);
+    let size = convex_a.core.reach().min(convex_b.core.reach()).max(radii);
+    if !corrected && candidates.least_separation() > least.gap - radii + 1e-6 * size {
+        candidates.push(clip::witness(convex_a, convex_b, &inner, &least));
+    }
+    let manifold = candidates.reduced(normal)?;
+    let mut placed = Manifold::new(a.1.rotation * manifold.normal);
+    for point in manifold.points() {
+        placed.push(ContactPoint { point: a.1.transform_point(point.point), ..*point });
+    }
+    Some(placed)
+}
+
+/// Height (m) of the lowest point of `convex` above the plane.
+fn plane_separation(plane: &Pose, convex: &Convex, pose: &Pose) -> f64 {
+    let up = plane.rotation * DVec3::Y;
+    let lowest = convex.core.support(pose.rotation.conjugate() * -up);
+    (pose.transform_point(lowest) - plane.position).dot(up) - convex.radius
+}
+
+/// The plane goes first: the normal is the plane's own.
+fn plane_manifold(plane: &Pose, convex: &Convex, pose: &Pose, margin: f64) -> Option<Manifold> {
+    let up = plane.rotation * DVec3::Y;
+    let down = pose.rotation.conjugate() * -up;
+    let mut candidates = Candidates::new(margin);
+    let mut add = |local: DVec3, feature_b: Feature| {
+        let center = pose.transform_point(local);
+        let height = (center - plane.position).dot(up);
+        let separation = height - convex.radius;
+        let point = center - up * (convex.radius + 0.5 * separation);
+        candidates.push(ContactPoint { point, separation, feature_a: Feature::Surface, feature_b });
+    };
+    let outline = convex.core.outline(down);
+    outline.corners().iter().for_each(|corner| add(corner.point, corner.vertex));
+    let lowest = plane_separation(plane, convex, pose);
+    if candidates.least_separation() > lowest + 1e-6 * convex.core.reach() {
+        let mut add = |local: DVec3| {
+            let center = pose.transform_point(local);
+            let point = center - up * (convex.radius + 0.5 * lowest);
+            let (feature_a, feature_b) = (Feature::Surface, Feature::Surface);
+            candidates.push(ContactPoint { point, separation: lowest, feature_a, feature_b });
+        };
+        add(convex.core.support(down));
+    }
+    candidates.reduced(up)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,5 +1,6 @@
 //! Round shapes and cuboids on a half space. The plane is `b`, so the normal points down into it.
 
+use super::ROUNDING;
 use super::cuboid::{self, Cuboid};
 use super::manifold::{ContactPoint, Manifold};
 use super::round::Round;
@@ -26,10 +27,17 @@ impl HalfSpace {
         (point - self.point).dot(self.up)
     }
 
-    /// The contact of `lowest`, a point of `a`'s surface, with the plane straight below it.
-    fn contact(&self, lowest: DVec3, feature_a: Feature) -> ContactPoint {
-        let separation = self.height(lowest);
-        let point = lowest - self.up * (0.5 * separation);
+    /// The length that heights near `point` are rounded against.
+    fn span(&self, point: DVec3) -> f64 {
+        (point - self.point).abs().max_element()
+    }
+
+    /// The contact of `lowest`, a point of `a`'s surface, with the plane straight below it. All points that are as low as
+    /// the lowest, but for rounding, are given its height, `least`.
+    fn contact(&self, lowest: DVec3, (least, size): (f64, f64), feature_a: Feature) -> ContactPoint {
+        let height = self.height(lowest);
+        let separation = if height <= least + 10.0 * ROUNDING * size { least } else { height };
+        let point = lowest - self.up * (0.5 * height);
         ContactPoint { point, separation, feature_a, feature_b: Feature::Surface }
     }
 }
@@ -41,15 +49,20 @@ pub(crate) fn round_separation(round: &Round, plane: &HalfSpace) -> f64 {
 
 /// A ball's lowest point, or those below a capsule's two ends.
 pub(crate) fn round_manifold(round: &Round, plane: &HalfSpace, margin: f64) -> Option<Manifold> {
+    let least = round_separation(round, plane);
+    if least > margin {
+        return None;
+    }
     let mut manifold = Manifold::new(-plane.up);
+    let level = (least, round.size() + plane.span(round.core.center));
     let ends: &[f64] = if round.is_ball() { &[0.0] } else { &[-1.0, 1.0] };
     for &end in ends {
-        let contact = plane.contact(round.core.at(end) - plane.up * round.radius, Feature::Surface);
+        let contact = plane.contact(round.core.at(end) - plane.up * round.radius, level, Feature::Surface);
         if contact.separation <= margin {
             manifold.push(contact);
         }
     }
-    (!manifold.points().is_empty()).then_some(manifold)
+    Some(manifold)
 }
 
 /// The height of the lowest corner: the centre's, less the half lengths' shares of it.
@@ -60,14 +73,19 @@ pub(crate) fn box_separation(cuboid: &Cuboid, plane: &HalfSpace) -> f64 {
 
 /// The corners of the face that looks down most; the lowest corner is one of them.
 pub(crate) fn box_manifold(cuboid: &Cuboid, plane: &HalfSpace, margin: f64) -> Option<Manifold> {
+    let least = box_separation(cuboid, plane);
+    if least > margin {
+        return None;
+    }
     let up = cuboid.pose.rotation.conjugate() * plane.up;
     let mut manifold = Manifold::new(-plane.up);
+    let level = (least, cuboid.half.max_element() + plane.span(cuboid.pose.position));
     for corner in cuboid::face_corners(cuboid::facing(-up)) {
         let lowest = cuboid.pose.transform_point(cuboid::corner(corner, cuboid.half));
-        let contact = plane.contact(lowest, Feature::Vertex(corner));
+        let contact = plane.contact(lowest, level, Feature::Vertex(corner));
         if contact.separation <= margin {
             manifold.push(contact);
         }
     }
-    (!manifold.points().is_empty()).then_some(manifold)
+    Some(manifold)
 }

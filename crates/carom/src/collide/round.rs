@@ -101,8 +101,9 @@ fn normal_of_crossing(a: &Round, b: &Round, offset: DVec3) -> DVec3 {
     if across.length() > ROUNDING * half_a.length() * half_b.length() {
         return across.normalize() * if offset.dot(across) < 0.0 { -1.0 } else { 1.0 };
     }
-    let axis = if a.is_ball() { half_b } else { half_a };
-    axis.try_normalize().map_or(DVec3::Y, any_tangent)
+    let (axis, sign) =
+        if a.is_ball() { (half_b, 1.0) } else { (half_a, if b.is_ball() { -1.0 } else { 1.0 }) };
+    axis.try_normalize().map_or(DVec3::Y, any_tangent) * sign
 }
 
 /// For two parallel capsules that lie alongside: the pairs of core points where their common stretch begins and ends.

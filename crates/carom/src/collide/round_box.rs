@@ -25,9 +25,9 @@ pub(crate) fn separation(round: &Round, cuboid: &Cuboid) -> f64 {
         let beyond = core.center.abs() - cuboid.half;
         beyond.max(DVec3::ZERO).length() + beyond.max_element().min(0.0)
     } else {
-        let on_core = core.at(core.closest_to_box(cuboid.half));
-        let distance = outside(on_core, cuboid.half).length();
-        if distance > 0.0 { distance } else { way_out(&core, cuboid.half).distance }
+        let distance = outside(core.at(core.closest_to_box(cuboid.half)), cuboid.half).length();
+        // Where the core meets the box, its closest point may lie on the surface, but for rounding.
+        if distance > rounding(&core, cuboid.half) { distance } else { way_out(&core, cuboid.half).distance }
     };
     distance - round.radius
 }
@@ -48,13 +48,13 @@ pub(crate) fn manifold(round: &Round, cuboid: &Cuboid, margin: f64) -> Option<Ma
     let mut manifold = Manifold::new(-nearest.outward);
     let stretch = stretch_over_face(&core, cuboid.half, nearest.outward);
     // Where the closest point is a corner beside the face, the stretch misses it.
-    let size = cuboid.half.length() + core.half.length();
-    let is_nearest = |end: &FaceEnd| end.distance <= nearest.distance + 1e3 * ROUNDING * size;
+    let tolerance = 10.0 * rounding(&core, cuboid.half);
+    let is_nearest = |end: &FaceEnd| end.distance <= nearest.distance + tolerance;
     if let Some(ends) = stretch.filter(|ends| ends.iter().any(is_nearest)) {
         for end in ends {
-            let point = contact(end.on_core, end.distance, end.feature);
-            if point.separation <= margin || is_nearest(&end) {
-                manifold.push(point);
+            let distance = if is_nearest(&end) { nearest.distance } else { end.distance };
+            if distance - round.radius <= margin {
+                manifold.push(contact(end.on_core, distance, end.feature));
             }
         }
     } else {
@@ -62,6 +62,11 @@ pub(crate) fn manifold(round: &Round, cuboid: &Cuboid, margin: f64) -> Option<Ma
         manifold.push(contact(nearest.on_core, nearest.distance, feature));
     }
     Some(manifold.placed(&cuboid.pose))
+}
+
+/// A length, m, that is nothing beside these two.
+fn rounding(core: &Segment, half_box: DVec3) -> f64 {
+    ROUNDING * (half_box.max_element() + core.half.abs().max_element())
 }
 
 /// The core in the cuboid's frame.
@@ -78,7 +83,7 @@ fn nearest(core: &Segment, half_box: DVec3) -> Nearest {
     let on_core = if is_point { core.center } else { core.at(core.closest_to_box(half_box)) };
     let offset = outside(on_core, half_box);
     let distance = offset.length();
-    if distance > ROUNDING * (half_box.length() + core.half.length()) {
+    if distance > rounding(core, half_box) {
         return Nearest { on_core, outward: offset / distance, distance };
     }
     way_out(core, half_box)
@@ -101,7 +106,7 @@ fn way_out(core: &Segment, half_box: DVec3) -> Nearest {
             best = Nearest { on_core: core.at(deepest), outward, distance };
         }
     }
-    let tolerance = ROUNDING * (half_box.length() + core.half.length());
+    let tolerance = rounding(core, half_box);
     for axis in 0..3 {
         let along = DVec3::AXES[axis];
         let cross = core.half.cross(along);

@@ -103,6 +103,9 @@ fn solve_normal(movers: &mut [Mover], row: &mut ContactRow) -> f64 {
 }
 
 /// Takes away the tangential velocity as far as the cone allows; returns how much it changed.
+///
+/// The correction is along the slip itself, over the largest response in the tangent plane: were it `K⁻¹·slip`, a sliding
+/// point would settle on a force that is askew of its slip, which no surface exerts (de Saxcé and Feng 1998).
 fn solve_friction(movers: &mut [Mover], row: &mut ContactRow) -> f64 {
     if row.static_friction == 0.0 && row.dynamic_friction == 0.0 {
         return 0.0;
@@ -112,13 +115,12 @@ fn solve_friction(movers: &mut [Mover], row: &mut ContactRow) -> f64 {
     let second = row.normal.cross(first);
     let (along_first, along_second) = (response(movers, row, first), response(movers, row, second));
     let (k11, k12, k22) = (along_first.dot(first), along_first.dot(second), along_second.dot(second));
-    let determinant = k11 * k22 - k12 * k12;
-    if determinant <= 1e-12 * (k11 + k22) * (k11 + k22) {
+    let stiffest = 0.5 * (k11 + k22) + (0.25 * (k11 - k22) * (k11 - k22) + k12 * k12).sqrt();
+    if stiffest <= 0.0 {
         return 0.0;
     }
-    let (v1, v2) = (velocity.dot(first), velocity.dot(second));
-    let change =
-        first * ((k12 * v2 - k22 * v1) / determinant) + second * ((k12 * v1 - k11 * v2) / determinant);
+    let slip = velocity - velocity.dot(row.normal) * row.normal;
+    let change = slip / -stiffest;
     let mut friction = row.friction + change;
     let size = friction.length();
     if size > row.static_friction * row.pressure {
@@ -128,5 +130,5 @@ fn solve_friction(movers: &mut [Mover], row: &mut ContactRow) -> f64 {
     let change = friction - row.friction;
     row.friction = friction;
     apply(movers, row, change);
-    change.length() * (k11 + k22)
+    change.length() * stiffest
 }

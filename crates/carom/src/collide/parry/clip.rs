@@ -1,0 +1,276 @@
+//! Where two sides face each other: one outline cut to the other, and the best four of the points this leaves.
+
+use super::axis::Axis;
+use super::convex::{CORNERS, Convex, Corner};
+use crate::collide::{ContactPoint, Manifold};
+use crate::math::{DVec3, Pose, any_tangent};
+use crate::report::Feature;
+
+/// Points that may go into a manifold: those within a margin.
+pub(super) struct Candidates {
+    points: Vec<ContactPoint>,
+    margin: f64,
+}
+
+impl Candidates {
+    pub fn new(margin: f64) -> Self {
+        Self { points: Vec::new(), margin }
+    }
+
+    pub fn push(&mut self, point: ContactPoint) {
+        if point.separation <= self.margin && point.point.is_finite() {
+            self.points.push(point);
+        }
+    }
+
+    /// The smallest separation so far, m; infinite where there is no point.
+    pub fn least_separation(&self) -> f64 {
+        self.points.iter().map(|point| point.separation).fold(f64::INFINITY, f64::min)
+    }
+
+    /// The best four: the deepest, the one farthest from it, and on each side of the line between them the one that
+    /// spans the most area. `None` if there is no point. Equal ones: the first.
+    pub fn reduced(&self, normal: DVec3) -> Option<Manifold> {
+        let first_best = |value: &dyn Fn(&ContactPoint) -> f64, least: f64| {
+            let mut best: Option<(&ContactPoint, f64)> = None;
+            for point in &self.points {
+                let score = value(point);
+                if score > best.map_or(least, |(_, score)| score) {
+                    best = Some((point, score));
+                }
+            }
+            best.map(|(point, _)| *point)
+        };
+        let deepest = first_best(&|point| -point.separation, f64::NEG_INFINITY)?;
+        let origin = deepest.point;
+        let extent = self.points.iter().map(|point| point.point.distance(origin)).fold(0.0, f64::max);
+        let mut manifold = Manifold::new(normal);
+        manifold.push(deepest);
+        let tiny = 1e-9 * (extent + origin.abs().max_element());
+        if let Some(farthest) = first_best(&|point| point.point.distance(origin), tiny) {
+            manifold.push(farthest);
+            let across = normal.cross(farthest.point - origin);
+            for side in [across, -across] {
+                let spanned = |point: &ContactPoint| side.dot(point.point - origin);
+                if let Some(widest) = first_best(&spanned, 1e-6 * extent * extent) {
+                    manifold.push(widest);
+                }
+            }
+        }
+        Some(manifold)
+    }
+}
+
+/// What the side of an outline being cut is: one of its own, or a cut along one of the other's.
+#[derive(Clone, Copy)]
+enum Side {
+    Own(Feature),
+    Cut { edge: Feature, from: Feature },
+}
+
+/// A corner of the outline being cut: its place in the plane across the normal, its height along it.
+#[derive(Clone, Copy)]
+struct Cut {
+    x: f64,
+    y: f64,
+    height: f64,
+    own: Feature,
+    other: Feature,
+    onward: Side,
+}
+
+/// Cuts the side of `a` that faces along `normal` to the side of `b` that faces against it (Sutherland and Hodgman,
+/// *Reentrant Polygon Clipping*, 1974) and offers the corners of what is left, in a's frame. Offers nothing where
+/// the sides pass each other edge on or meet in single points; the axis' own points stand in there.
+pub(super) fn contacts(a: &Convex, b: &Convex, b_in_a: &Pose, normal: DVec3, out: &mut Candidates) {
+    let side_a = a.core.outline(normal);
+    let mut side_b = b.core.outline(b_in_a.rotation.conjugate() * -normal);
+    side_b.corners_mut().iter_mut().for_each(|corner| corner.point = b_in_a.transform_point(corner.point));
+    let (across, up) = {
+        let across = any_tangent(normal);
+        (across, normal.cross(across))
+    };
+    let mut offer = |x: f64, y: f64, heights: (f64, f64), features: (Feature, Feature)| {
+        let (low, high) = (heights.0 + a.radius, heights.1 - b.radius);
+        let point = across * x + up * y + normal * (0.5 * (low + high));
+        let (feature_a, feature_b) = features;
+        out.push(ContactPoint { point, separation: high - low, feature_a, feature_b });
+    };
+    let flat = |corner: &Corner| (corner.point.dot(across), corner.point.dot(up), corner.point.dot(normal));
+    let (corners_a, corners_b) = (side_a.corners(), side_b.corners());
+
+    if let (2, 2) = (corners_a.len(), corners_b.len()) {
+        let ([a0, a1], [b0, b1]) =
+            ([flat(&corners_a[0]), flat(&corners_a[1])], [flat(&corners_b[0]), flat(&corners_b[1])]);
+        return parallel_segments([a0, a1], [b0, b1], &mut |x, y, heights| {
+            offer(x, y, heights, (corners_a[0].edge, corners_b[0].edge));
+        });
+    }
+    // The knife must have an area; the other may be a segment or a point.
+    let b_cuts = corners_b.len() > 2;
+    let (subject, knife) = if b_cuts { (&side_a, &side_b) } else { (&side_b, &side_a) };
+    let Some(plane) = Knife::new(knife.corners(), flat) else { return };
+    let mut shape: Vec<Cut> = Vec::with_capacity(2 * CORNERS + 2);
+    for corner in subject.corners() {
+        let (x, y, height) = flat(corner);
+        let onward = Side::Own(corner.edge);
+        shape.push(Cut { x, y, height, own: corner.vertex, other: knife.face, onward });
+    }
+    for k in 0..knife.corners().len() {
+        shape = plane.cut(&shape, k, knife.corners(), subject.face);
+    }
+    for cut in shape {
+        let height = plane.height(cut.x, cut.y);
+        if b_cuts {
+            offer(cut.x, cut.y, (cut.height, height), (cut.own, cut.other));
+        } else {
+            offer(cut.x, cut.y, (height, cut.height), (cut.other, cut.own));
+        }
+    }
+}
+
+/// The point of the axis itself: where GJK or EPA saw the cores closest. In a's frame.
+pub(super) fn witness(a: &Convex, b: &Convex, b_in_a: &Pose, axis: &Axis) -> ContactPoint {
+    let separation = axis.gap - a.radius - b.radius;
+    let size = a.core.reach().max(b.core.reach());
+    let into_b = b_in_a.rotation.conjugate() * -axis.normal;
+    let feature_a = touched(a, axis.normal, 1e-6 * size);
+    let feature_b = touched(b, into_b, 1e-6 * size);
+    // Both points lie on their surfaces up to rounding; the height is taken from the gap, which is exact.
+    let middle = 0.5 * (axis.on_a + axis.on_b);
+    let high_a = a.core.support(axis.normal).dot(axis.normal) + a.radius;
+    let point = middle + axis.normal * (high_a + 0.5 * separation - middle.dot(axis.normal));
+    ContactPoint { point, separation, feature_a, feature_b }
+}
+
+/// What of a shape lies farthest in `direction`.
+fn touched(shape: &Convex, direction: DVec3, tolerance: f64) -> Feature {
+    let highest = shape.core.support(direction).dot(direction);
+    let outline = shape.core.outline(direction);
+    let corners = outline.corners();
+    let touches = |corner: &Corner| highest - corner.point.dot(direction) <= tolerance;
+    match corners.iter().filter(|corner| touches(corner)).count() {
+        1 => corners.iter().find(|corner| touches(corner)).map_or(Feature::Surface, |corner| corner.vertex),
+        2 => (0..corners.len())
+            .find(|&k| touches(&corners[k]) && touches(&corners[(k + 1) % corners.len()]))
+            .map_or(Feature::Surface, |k| corners[k].edge),
+        0 => Feature::Surface,
+        _ => outline.face,
+    }
+}
+
+/// The outline that cuts: its sides in the plane across the normal, its own plane in space.
+struct Knife {
+    places: Vec<(f64, f64)>,
+    /// 1 if the sides run anticlockwise seen against the normal, else −1.
+    turn: f64,
+    /// height = slope·(x, y) + offset.
+    slope: (f64, f64),
+    offset: f64,
+    /// Points this far outside, m, count as inside.
+    tolerance: f64,
+}
+
+impl Knife {
+    /// `None` if there is no area, or it is seen edge on (the heights would be all rounding).
+    fn new(corners: &[Corner], flat: impl Fn(&Corner) -> (f64, f64, f64)) -> Option<Self> {
+        if corners.len() < 3 {
+            return None;
+        }
+        let points: Vec<(f64, f64, f64)> = corners.iter().map(flat).collect();
+        let origin = points[0];
+        let from_origin = |k: usize| {
+            let (x, y, height) = points[k];
+            DVec3::new(x - origin.0, y - origin.1, height - origin.2)
+        };
+        // Twice the area, as a vector (Newell).
+        let area: DVec3 = (1..points.len() - 1).map(|k| from_origin(k).cross(from_origin(k + 1))).sum();
+        if !(area.z.abs() > 0.05 * area.length()) {
+            return None;
+        }
+        let slope = (-area.x / area.z, -area.y / area.z);
+        let offset = origin.2 - slope.0 * origin.0 - slope.1 * origin.1;
+        let extent = (1..points.len()).map(|k| from_origin(k).length()).fold(0.0, f64::max);
+        let places = points.iter().map(|&(x, y, _)| (x, y)).collect();
+        Some(Self { places, turn: area.z.signum(), slope, offset, tolerance: 1e-9 * extent })
+    }
+
+    fn height(&self, x: f64, y: f64) -> f64 {
+        self.slope.0 * x + self.slope.1 * y + self.offset
+    }
+
+    /// What of `shape` lies inside the knife's side `k`.
+    fn cut(&self, shape: &[Cut], k: usize, corners: &[Corner], face: Feature) -> Vec<Cut> {
+        let (from, to) = (self.places[k], self.places[(k + 1) % self.places.len()]);
+        let (dx, dy) = (to.0 - from.0, to.1 - from.1);
+        let length = (dx * dx + dy * dy).sqrt();
+        if length == 0.0 {
+            return shape.to_vec();
+        }
+        let inside = |cut: &Cut| self.turn * (dx * (cut.y - from.1) - dy * (cut.x - from.0)) / length;
+        let mut left = Vec::with_capacity(shape.len() + 1);
+        for (i, here) in shape.iter().enumerate() {
+            let next = &shape[(i + 1) % shape.len()];
+            let (depth_here, depth_next) = (inside(here), inside(next));
+            let keeps = |depth: f64| depth >= -self.tolerance;
+            if keeps(depth_here) {
+                left.push(*here);
+            }
+            if keeps(depth_here) == keeps(depth_next) {
+                continue;
+            }
+            let part = (depth_here / (depth_here - depth_next)).clamp(0.0, 1.0);
+            let between = |one: f64, other: f64| one + part * (other - one);
+            let (own, other) = match here.onward {
+                Side::Own(edge) => (edge, corners[k].edge),
+                // Two cuts meet where the knife has a corner.
+                Side::Cut { edge, from } if edge == corners[k].edge => (face, from),
+                Side::Cut { .. } => (face, corners[k].vertex),
+            };
+            // Going out, the way goes on along the knife; coming in, along what it came by.
+            let onward = if keeps(depth_here) {
+                Side::Cut { edge: corners[k].edge, from: corners[k].vertex }
+            } else {
+                here.onward
+            };
+            left.push(Cut {
+                x: between(here.x, next.x),
+                y: between(here.y, next.y),
+                height: between(here.height, next.height),
+                own,
+                other,
+                onward,
+            });
+        }
+        left
+    }
+}
+
+/// Offers the two ends of what two segments, nearly parallel across the normal, have in common; nothing for others.
+fn parallel_segments(
+    a: [(f64, f64, f64); 2],
+    b: [(f64, f64, f64); 2],
+    offer: &mut dyn FnMut(f64, f64, (f64, f64)),
+) {
+    const PARALLEL: f64 = 0.05;
+    let (ax, ay) = (a[1].0 - a[0].0, a[1].1 - a[0].1);
+    let (bx, by) = (b[1].0 - b[0].0, b[1].1 - b[0].1);
+    let (aa, bb) = (ax * ax + ay * ay, bx * bx + by * by);
+    let sine = ax * by - ay * bx;
+    if aa == 0.0 || bb == 0.0 || sine * sine > PARALLEL * PARALLEL * aa * bb {
+        return;
+    }
+    let along = |point: (f64, f64, f64)| ((point.0 - a[0].0) * ax + (point.1 - a[0].1) * ay) / aa;
+    let (b0, b1) = (along(b[0]), along(b[1]));
+    let (low, high) = (b0.min(b1).max(0.0), b0.max(b1).min(1.0));
+    if low > high {
+        return;
+    }
+    for part in [low, high] {
+        let on_b = ((part - b0) / (b1 - b0)).clamp(0.0, 1.0);
+        let between = |one: f64, other: f64, part: f64| one + part * (other - one);
+        let x = between(a[0].0, a[1].0, part);
+        let y = between(a[0].1, a[1].1, part);
+        offer(x, y, (between(a[0].2, a[1].2, part), between(b[0].2, b[1].2, on_b)));
+    }
+}

@@ -1,0 +1,261 @@
+//! Convex shapes as cores with a radius: how far they reach, and which side of them faces a direction.
+
+use crate::hull::Hull;
+use crate::math::{DVec3, sin_cos};
+use crate::report::Feature;
+use crate::shape::Shape;
+use parry3d_f64::shape::SupportMap;
+
+/// All points within `radius` of a core.
+pub(super) struct Convex<'a> {
+    pub core: Core<'a>,
+    /// m; the larger the radius, the less needs parry's slower half (overlap of cores).
+    pub radius: f64,
+}
+
+/// What is left of a convex shape when its roundness is taken off.
+pub(super) enum Core<'a> {
+    /// The origin: a ball's centre.
+    Point,
+    /// Along y: a capsule's axis.
+    Segment { half: f64 },
+    /// A box around the origin.
+    Cuboid { half: DVec3 },
+    /// The hull of two balls at −half and +half on y. One of the radii is 0.
+    Balls { half: f64, bottom: f64, top: f64 },
+    /// The hull of two discs across y at −half and +half.
+    Frustum { half: f64, bottom: f64, top: f64 },
+    /// A polyhedron.
+    Hull(&'a Hull),
+    /// A triangle of a mesh, with the numbers it and its corners have there.
+    Triangle { corners: [DVec3; 3], index: u32, vertices: [u32; 3] },
+}
+
+/// Corners of a disc's rim that take part in contacts; the rim's lowest point always does, corner or not.
+const RIM: usize = 16;
+
+/// The most corners that a side of a core shows. Hull sides with more are thinned out evenly.
+pub(super) const CORNERS: usize = 16;
+
+/// A corner of an outline.
+#[derive(Clone, Copy)]
+pub(super) struct Corner {
+    pub point: DVec3,
+    /// What the corner is.
+    pub vertex: Feature,
+    /// What leads from it to the next corner.
+    pub edge: Feature,
+}
+
+/// The side of a core that faces some direction: a point, a segment or a flat polygon, anticlockwise from outside.
+pub(super) struct Outline {
+    corners: [Corner; CORNERS],
+    count: usize,
+    /// What its inside is.
+    pub face: Feature,
+}
+
+impl Outline {
+    fn new(face: Feature) -> Self {
+        let corner = Corner { point: DVec3::ZERO, vertex: Feature::Surface, edge: Feature::Surface };
+        Self { corners: [corner; CORNERS], count: 0, face }
+    }
+
+    fn with(mut self, point: DVec3, vertex: Feature, edge: Feature) -> Self {
+        if self.count < CORNERS {
+            self.corners[self.count] = Corner { point, vertex, edge };
+            self.count += 1;
+        }
+        self
+    }
+
+    pub fn corners(&self) -> &[Corner] {
+        &self.corners[..self.count]
+    }
+
+    /// The corners, to be moved to another frame.
+    pub fn corners_mut(&mut self) -> &mut [Corner] {
+        &mut self.corners[..self.count]
+    }
+}
+
+impl<'a> Convex<'a> {
+    /// `None` for planes and meshes.
+    pub fn of(shape: &'a Shape) -> Option<Self> {
+        Some(match *shape {
+            Shape::Sphere { radius } => Self { core: Core::Point, radius },
+            Shape::Cuboid { size } => Self { core: Core::Cuboid { half: 0.5 * size }, radius: 0.0 },
+            Shape::Capsule { height, radius } => Self { core: Core::Segment { half: 0.5 * height }, radius },
+            Shape::TaperedCapsule { height, radius_bottom, radius_top } => {
+                let radius = radius_bottom.min(radius_top);
+                let (bottom, top) = (radius_bottom - radius, radius_top - radius);
+                Self { core: Core::Balls { half: 0.5 * height, bottom, top }, radius }
+            }
+            Shape::Cylinder { height, radius_bottom, radius_top } => Self {
+                core: Core::Frustum { half: 0.5 * height, bottom: radius_bottom, top: radius_top },
+                radius: 0.0,
+            },
+            Shape::Hull(ref hull) => Self { core: Core::Hull(hull), radius: 0.0 },
+            Shape::Plane | Shape::Mesh(_) => return None,
+        })
+    }
+}
+
+impl SupportMap for Core<'_> {
+    fn local_support_point(&self, direction: DVec3) -> DVec3 {
+        self.support(direction)
+    }
+}
+
+impl Core<'_> {
+    /// The point that lies farthest in `direction` (of any length).
+    pub fn support(&self, direction: DVec3) -> DVec3 {
+        let on_axis = |y: f64| DVec3::new(0.0, y, 0.0);
+        let farther = |one: DVec3, other: DVec3| {
+            if other.dot(direction) > one.dot(direction) { other } else { one }
+        };
+        match *self {
+            Core::Point => DVec3::ZERO,
+            Core::Segment { half } => on_axis(if direction.y < 0.0 { -half } else { half }),
+            Core::Cuboid { half } => {
+                let side = |axis: usize| if direction[axis] < 0.0 { -half[axis] } else { half[axis] };
+                DVec3::new(side(0), side(1), side(2))
+            }
+            Core::Balls { half, bottom, top } => {
+                let unit = direction.normalize_or_zero();
+                farther(on_axis(half) + unit * top, on_axis(-half) + unit * bottom)
+            }
+            Core::Frustum { half, bottom, top } => {
+                let out = DVec3::new(direction.x, 0.0, direction.z).normalize_or_zero();
+                farther(on_axis(half) + out * top, on_axis(-half) + out * bottom)
+            }
+            Core::Hull(hull) => hull.vertices().iter().copied().reduce(farther).unwrap_or(DVec3::ZERO),
+            Core::Triangle { corners: [a, b, c], .. } => farther(farther(a, b), c),
+        }
+    }
+
+    /// A length like the core's own, m: half the largest edge of the box around it. 0 for a point.
+    pub fn reach(&self) -> f64 {
+        match *self {
+            Core::Point => 0.0,
+            Core::Segment { half } => half,
+            Core::Cuboid { half } => half.max_element(),
+            Core::Balls { half, bottom, top } | Core::Frustum { half, bottom, top } => {
+                half.max(bottom).max(top)
+            }
+            Core::Hull(_) | Core::Triangle { .. } => {
+                let extent = |axis: DVec3| (self.support(axis) - self.support(-axis)).dot(axis);
+                0.5 * extent(DVec3::X).max(extent(DVec3::Y)).max(extent(DVec3::Z))
+            }
+        }
+    }
+
+    /// A point well inside.
+    pub fn middle(&self) -> DVec3 {
+        match self {
+            Core::Hull(hull) => {
+                let vertices = hull.vertices();
+                vertices.iter().sum::<DVec3>() / vertices.len().max(1) as f64
+            }
+            Core::Triangle { corners: [a, b, c], .. } => (*a + *b + *c) / 3.0,
+            _ => DVec3::ZERO,
+        }
+    }
+
+    /// Some directions worth a try when all else fails: those of flat sides.
+    pub fn flat_directions(&self) -> Vec<DVec3> {
+        match self {
+            Core::Hull(hull) => hull.face_normals().collect(),
+            Core::Triangle { corners: [a, b, c], .. } => {
+                let normal = (*b - *a).cross(*c - *a).normalize_or_zero();
+                vec![normal, -normal]
+            }
+            _ => vec![DVec3::X, DVec3::Y, DVec3::Z, DVec3::NEG_X, DVec3::NEG_Y, DVec3::NEG_Z],
+        }
+    }
+
+    /// The side that faces the unit vector `direction`.
+    pub fn outline(&self, direction: DVec3) -> Outline {
+        let smooth = Feature::Surface;
+        let segment = |low: DVec3, high: DVec3| {
+            Outline::new(smooth).with(low, smooth, smooth).with(high, smooth, smooth)
+        };
+        let on_axis = |y: f64| DVec3::new(0.0, y, 0.0);
+        match *self {
+            Core::Point => Outline::new(smooth).with(DVec3::ZERO, smooth, smooth),
+            Core::Segment { half } => segment(on_axis(-half), on_axis(half)),
+            Core::Balls { half, bottom, top } => {
+                segment(on_axis(-half) + direction * bottom, on_axis(half) + direction * top)
+            }
+            Core::Cuboid { half } => cuboid_side(half, direction),
+            Core::Frustum { half, bottom, top } => {
+                let radial = DVec3::new(direction.x, 0.0, direction.z);
+                let (out, height) = (radial.normalize_or_zero(), 2.0 * half);
+                // The side's normal: across the slanted line from rim to rim.
+                let slant = DVec3::new(height, bottom - top, 0.0).normalize_or_zero();
+                let along_side = slant.x * radial.length() + slant.y * direction.y;
+                let (up, down) = (direction.y, -direction.y);
+                if top > 0.0 && up >= along_side && up >= down {
+                    disc(half, top, 1)
+                } else if bottom > 0.0 && down >= along_side {
+                    disc(-half, bottom, 0)
+                } else {
+                    segment(on_axis(-half) + out * bottom, on_axis(half) + out * top)
+                }
+            }
+            Core::Hull(hull) => {
+                let (face, corners) = hull.face_towards(direction);
+                let count = corners.len();
+                let kept = count.min(CORNERS);
+                (0..kept).fold(Outline::new(Feature::Face(face)), |outline, k| {
+                    let (here, next) = (corners[k * count / kept], corners[(k + 1) * count / kept % count]);
+                    let edge = Feature::Edge(hull.edge_number(here, next));
+                    outline.with(hull.vertices()[here as usize], Feature::Vertex(here), edge)
+                })
+            }
+            Core::Triangle { corners, index, vertices } => {
+                (0..3).fold(Outline::new(Feature::Face(index)), |outline, k| {
+                    let edge = index.wrapping_mul(3).wrapping_add(k as u32);
+                    outline.with(corners[k], Feature::Vertex(vertices[k]), Feature::Edge(edge))
+                })
+            }
+        }
+    }
+}
+
+/// The face of a box that faces `direction`, numbered as [`Feature`] says; the edge along an axis is 4 times the
+/// axis, plus 1 and 2 where it lies on the positive side of the first and second of the other axes.
+fn cuboid_side(half: DVec3, direction: DVec3) -> Outline {
+    let size = direction.abs();
+    let axis = if size.x >= size.y && size.x >= size.z { 0 } else { 1 + usize::from(size.z > size.y) };
+    let positive = direction[axis] > 0.0;
+    let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
+    let base = u32::from(positive) << axis;
+    let mut ring = [base, base | 1 << u, base | 1 << u | 1 << v, base | 1 << v];
+    if !positive {
+        ring.reverse();
+    }
+    let bit = |corner: u32, axis: usize| corner >> axis & 1;
+    let face = Feature::Face(2 * axis as u32 + u32::from(positive));
+    (0..4).fold(Outline::new(face), |outline, k| {
+        let (here, next) = (ring[k], ring[(k + 1) % 4]);
+        let along = (here ^ next).trailing_zeros() as usize % 3;
+        let (first, second) = [(1, 2), (0, 2), (0, 1)][along];
+        let edge = 4 * along as u32 + bit(here, first) + 2 * bit(here, second);
+        let side = |axis: usize| if bit(here, axis) == 1 { half[axis] } else { -half[axis] };
+        outline.with(DVec3::new(side(0), side(1), side(2)), Feature::Vertex(here), Feature::Edge(edge))
+    })
+}
+
+/// A disc across y as a polygon of [`RIM`] corners that stand still in the shape's frame, so that they are the same ones
+/// from step to step. Numbered from 0 below (`number` 0) and from [`RIM`] above (`number` 1).
+fn disc(y: f64, radius: f64, number: u32) -> Outline {
+    (0..RIM).fold(Outline::new(Feature::Face(number)), |outline, k| {
+        // Anticlockwise from outside: from z to x seen from above, the other way from below.
+        let turn = if number == 1 { k } else { RIM - 1 - k };
+        let (sine, cosine) = sin_cos(turn as f64 * (std::f64::consts::TAU / RIM as f64));
+        let name = number * RIM as u32 + k as u32;
+        let point = DVec3::new(radius * sine, y, radius * cosine);
+        outline.with(point, Feature::Vertex(name), Feature::Edge(name))
+    })
+}

@@ -1,0 +1,7 @@
+//! The narrow phase against an independent oracle, against its own symmetries, and on contacts known by hand.
+
+mod degenerate;
+mod features;
+mod oracle;
+mod properties;
+mod support;

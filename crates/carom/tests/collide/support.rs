@@ -1,0 +1,98 @@
+//! Random shapes and poses, the same ones in every run.
+
+use carom::Shape;
+use carom::collide::{Manifold, manifolds, separation};
+use carom::math::{DQuat, DVec3, Pose, rotation_from_vector};
+
+/// SplitMix64 (Steele, Lea and Flood, *Fast Splittable Pseudorandom Number Generators*, 2014).
+pub struct Random(pub u64);
+
+impl Random {
+    pub fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * ((self.bits() >> 11) as f64 / (1_u64 << 53) as f64)
+    }
+
+    pub fn direction(&mut self) -> DVec3 {
+        loop {
+            let v = DVec3::new(self.between(-1.0, 1.0), self.between(-1.0, 1.0), self.between(-1.0, 1.0));
+            if v.length() > 0.1 && v.length() < 1.0 {
+                return v.normalize();
+            }
+        }
+    }
+
+    pub fn rotation(&mut self) -> DQuat {
+        let axis = self.direction();
+        rotation_from_vector(axis * self.between(0.0, 3.1))
+    }
+
+    pub fn shape(&mut self, kind: Kind) -> Shape {
+        let mut length = || self.between(0.1, 2.0);
+        match kind {
+            Kind::Sphere => Shape::sphere(length()),
+            Kind::Capsule => Shape::capsule(2.0 * length(), 0.5 * length()),
+            Kind::Cuboid => Shape::cuboid(length(), length(), length()),
+            Kind::Plane => Shape::plane(),
+        }
+    }
+
+    /// Two shapes, turned at random: half of the time near each other, half of the time near touching.
+    pub fn pair(&mut self, kinds: (Kind, Kind)) -> ((Shape, Pose), (Shape, Pose)) {
+        let (a, b) = (self.shape(kinds.0), self.shape(kinds.1));
+        let reach = [&a, &b].iter().map(|s| s.reach(DVec3::ZERO)).filter(|r| r.is_finite()).sum::<f64>();
+        let pose_a = Pose::new(self.direction() * self.between(0.0, 1.0), self.rotation());
+        let away = self.direction();
+        let mut pose_b = Pose::new(pose_a.position + away * self.between(0.0, 1.2 * reach), self.rotation());
+        if self.bits() & 1 == 0 {
+            for _ in 0..6 {
+                pose_b.position += away * (0.01 - separation(&a, &pose_a, &b, &pose_b)).clamp(-reach, reach);
+            }
+        }
+        ((a, pose_a), (b, pose_b))
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Kind {
+    Sphere,
+    Capsule,
+    Cuboid,
+    Plane,
+}
+
+/// All ordered pairs of shapes that can touch.
+pub fn kinds() -> impl Iterator<Item = (Kind, Kind)> {
+    const ALL: [Kind; 4] = [Kind::Sphere, Kind::Capsule, Kind::Cuboid, Kind::Plane];
+    ALL.into_iter()
+        .flat_map(|a| ALL.into_iter().map(move |b| (a, b)))
+        .filter(|&pair| pair != (Kind::Plane, Kind::Plane))
+}
+
+/// The one manifold of a pair, if there is one.
+pub fn touch(a: &(Shape, Pose), b: &(Shape, Pose), margin: f64) -> Option<Manifold> {
+    let mut out = Vec::new();
+    manifolds((&a.0, &a.1), (&b.0, &b.1), margin, &mut out);
+    assert!(out.len() <= 1);
+    out.pop()
+}
+
+pub fn gap(a: &(Shape, Pose), b: &(Shape, Pose)) -> f64 {
+    separation(&a.0, &a.1, &b.0, &b.1)
+}
+
+pub fn least(manifold: &Manifold) -> f64 {
+    manifold.points().iter().map(|p| p.separation).fold(f64::INFINITY, f64::min)
+}
+
+/// `shape` at a place, turned by a rotation vector.
+pub fn at(shape: Shape, position: [f64; 3], turn: [f64; 3]) -> (Shape, Pose) {
+    (shape, Pose::new(DVec3::from_array(position), rotation_from_vector(DVec3::from_array(turn))))
+}
