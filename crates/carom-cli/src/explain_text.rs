@@ -126,7 +126,7 @@ impl Story<'_> {
             headline("STEP 4  All this is linear: some multiple f gives the speed that is wanted", false);
         let _ = writeln!(
             text,
-            "  closing     v_c = (v_b − v_a)·n = {} m/s   (velocities of the points)",
+            "  closing     v_c = (v_b − v_a)·n = {} m/s, speed of the points",
             number(closing)
         );
         let _ = writeln!(
@@ -138,7 +138,7 @@ impl Story<'_> {
         );
         let _ = writeln!(
             text,
-            "  so that     v_s = v_c + f·(Δv_b − Δv_a)·n   with (Δv_b − Δv_a)·n = {} 1/kg",
+            "  so that     v_s = v_c + f·(Δv_b − Δv_a)·n\n              with (Δv_b − Δv_a)·n = {} 1/kg",
             number(per_impulse)
         );
         text += &headline("STEP 5  Solve for f, and apply v_l += f·Δv_l, v_r += f·Δv_r", false);
