@@ -22,6 +22,19 @@ pub(crate) struct RestLaw {
     pub substep: f64,
 }
 
+impl RestLaw {
+    /// Gap up to which a resting pair still counts as touching, m: what gravity covers in one substep.
+    pub fn contact_margin(&self) -> f64 {
+        0.5 * self.gravity.length() * self.substep * self.substep + 1e-6
+    }
+
+    /// Speed (m/s) with which a resting pair may close until it settles again: one that covers the contact margin in a
+    /// substep.
+    pub fn drift_speed(&self) -> f64 {
+        self.contact_margin() / self.substep
+    }
+}
+
 /// Two colliders during a step.
 pub(crate) struct Approach<'a> {
     bodies: &'a Bodies,
@@ -127,7 +140,7 @@ impl<'a> Approach<'a> {
     }
 
     /// The touch that closes fastest at `time`, if any closes faster than rounding (or, for a pair that `rests`, than the
-    /// rest threshold).
+    /// rest threshold and its drift).
     fn touch(&self, time: f64, rests: bool) -> Option<Touch> {
         self.fastest_touch(time, rests, 1.0)
     }
@@ -149,7 +162,7 @@ impl<'a> Approach<'a> {
         let mut fastest: Option<Touch> = None;
         for manifold in &manifolds {
             let rest_speed = self.rest_speed(manifold.normal);
-            let limit = share_of_limit * if rests { rest_speed } else { self.noise };
+            let limit = share_of_limit * if rests { rest_speed.max(self.law.drift_speed()) } else { self.noise };
             for contact in manifold.points() {
                 let point = contact.point;
                 let closing_speed = (velocity(self.b, point) - velocity(self.a, point)).dot(manifold.normal);

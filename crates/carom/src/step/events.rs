@@ -69,6 +69,8 @@ struct Watched {
     fastest: f64,
     /// How long to look away after a touch that vanished under a closer look, as a share of the step.
     patience: f64,
+    /// When it was last handed over to settle.
+    settled_at: Option<f64>,
 }
 
 /// The touches of one step.
@@ -150,7 +152,15 @@ impl<'a> Events<'a> {
         }
         let rows = [a.row, b.row];
         let pair = self.pairs.len();
-        self.pairs.push(Watched { colliders, rows, stamp: 0, hits: 0, fastest: 0.0, patience: 1e-9 });
+        self.pairs.push(Watched {
+            colliders,
+            rows,
+            stamp: 0,
+            hits: 0,
+            fastest: 0.0,
+            patience: 1e-9,
+            settled_at: None,
+        });
         for row in rows.into_iter().filter(|&row| row != WORLD_ROW) {
             self.pairs_of_row[row].push(pair);
         }
@@ -187,14 +197,22 @@ impl<'a> Events<'a> {
             return self.ask(pair, later);
         };
         let surface = approach.surface();
-        if self.comes_to_rest(pair, &touch) {
-            self.resting.insert(colliders);
-        } else {
+        if !self.comes_to_rest(pair, &touch) {
             self.pairs[pair].hits += 1;
             self.impacts.extend(strike(self.bodies, colliders, &touch, &surface, time));
-        }
-        for row in rows {
-            self.reroute(row, time);
+            for row in rows {
+                self.reroute(row, time);
+            }
+        } else if self.pairs[pair].settled_at == Some(time) {
+            // Nothing can be done about this touch: both sides are held by what nothing moves.
+            let later = self.later(pair, time);
+            self.ask(pair, later);
+        } else {
+            self.pairs[pair].settled_at = Some(time);
+            self.resting.insert(colliders);
+            for row in rows {
+                self.unsettle(row, time);
+            }
         }
     }
 

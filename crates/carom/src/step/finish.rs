@@ -5,7 +5,7 @@ use crate::collide;
 use crate::impacts::time_of_impact::{Approach, RestLaw};
 use crate::report::Overlap;
 use crate::step::broad_phase::ColliderPair;
-use crate::step::rest::{Island, Resting, contact_margin, push_out as push_island_out};
+use crate::step::rest::{Island, Resting, push_out as push_island_out};
 use crate::world::World;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -13,7 +13,7 @@ use std::collections::{BTreeMap, BTreeSet};
 pub(crate) fn part(bodies: &Bodies, resting: &mut Resting, law: RestLaw, time: f64) {
     resting.retain(|pair| {
         let (Some(a), Some(b)) = (bodies.collider(pair.0), bodies.collider(pair.1)) else { return false };
-        Approach::new(bodies, a, b, law).separation(time) <= contact_margin(law)
+        Approach::new(bodies, a, b, law).separation(time) <= law.contact_margin()
     });
 }
 

@@ -74,7 +74,7 @@ impl Resting {
             advance(bodies, row, time);
             bodies.influences[row] = free_influence(bodies, row, law.gravity);
         }
-        let margin = contact_margin(law);
+        let margin = law.contact_margin();
         let supports: Vec<Support> =
             island.pairs.iter().map(|&pair| support(bodies, pair, law, (time, margin))).collect();
         for lost in supports.iter().filter(|support| support.manifolds.is_empty()) {
@@ -235,11 +235,6 @@ impl Island {
     }
 }
 
-/// Gap up to which a resting pair still counts as touching, m: what gravity covers in one substep.
-pub(crate) fn contact_margin(law: RestLaw) -> f64 {
-    0.5 * law.gravity.length() * law.substep * law.substep + 1e-6
-}
-
 fn support(bodies: &Bodies, pair: ColliderPair, law: RestLaw, (time, margin): (f64, f64)) -> Support {
     let mut manifolds = Vec::new();
     if let (Some(a), Some(b)) = (bodies.collider(pair.0), bodies.collider(pair.1)) {
@@ -270,7 +265,7 @@ const PUSH_SWEEPS: usize = 20;
 
 /// Pushes resting bodies out of each other where rounding and curved paths have let them overlap; velocities stay.
 pub(crate) fn push_out(bodies: &mut Bodies, island: &Island, law: RestLaw, time: f64) {
-    let allowed = 0.1 * contact_margin(law);
+    let allowed = 0.1 * law.contact_margin();
     let supports: Vec<Support> =
         island.pairs.iter().map(|&pair| support(bodies, pair, law, (time, 0.0))).collect();
     let overlaps = supports
