@@ -214,7 +214,7 @@ impl<'a> Approach<'a> {
             let touching = separation <= self.tolerance;
             if touching && self.touch(time, rests).is_some() {
                 return Some(match before {
-                    Some((earlier, _)) => self.first_closing(earlier, time, rests),
+                    Some((earlier, _)) => self.first_closing((earlier, time), limit, rests),
                     None => time,
                 });
             }
@@ -296,9 +296,10 @@ impl<'a> Approach<'a> {
         None
     }
 
-    /// The first instant after `open`, where nothing closes, at which something does, as at `closing`.
-    fn first_closing(&self, mut open: f64, mut closing: f64, rests: bool) -> f64 {
-        for _ in 0..40 {
+    /// The first instant after `open`, where nothing closes, at which something does, as at `closing`; as exact as
+    /// separations are.
+    fn first_closing(&self, (mut open, mut closing): (f64, f64), limit: f64, rests: bool) -> f64 {
+        while (closing - open) * limit > self.tolerance {
             let middle = 0.5 * (open + closing);
             if middle <= open || middle >= closing {
                 break;
