@@ -154,7 +154,7 @@ impl Verdict {
             let _ = writeln!(text, "{mark} {law:<18}{:>8}{:>10}   {worst}", tally.checked, tally.violations);
         }
         text.push_str(
-            "\nTolerances come from rounding alone, ε = 4·2⁻²³: velocities are stored in single precision.\n",
+            "\nTolerances allow for geometry that is worked out anew, exact to ε = 4·2⁻²³, and for nothing else.\n",
         );
         for tally in &self.laws {
             let _ = writeln!(text, "  {:<18}{}", tally.law.replace('_', " "), tally.tolerance_rule);

@@ -10,7 +10,7 @@
 //! Slots are stable and named by ids; rows are dense, so a step walks them in order. An id carries the generation of
 //! its slot, hence an id of a removed body never names another one.
 
-use crate::body::{Body, Motion};
+use crate::body::{Body, Collider, Motion};
 use crate::error::Invalid;
 use crate::filter::Filter;
 use crate::flight::{Constants, Influence, RigidState};
@@ -118,6 +118,13 @@ pub(crate) struct ColliderRow {
     pub sensor: bool,
 }
 
+/// Whose collider it is: the body's slot and row, and its number there.
+struct Owner {
+    slot: u32,
+    row: usize,
+    number: u32,
+}
+
 struct Slot {
     generation: u32,
     record: Option<Record>,
@@ -177,8 +184,15 @@ impl Bodies {
             WORLD_ROW
         };
         let colliders = if takes_part {
-            (0..description.colliders.len())
-                .map(|collider| self.push_collider(index, row, collider, &description, &mass))
+            let place = |collider: &Collider| {
+                Pose::new(collider.pose.position - mass.center, collider.pose.rotation.normalize())
+            };
+            let colliders = description.colliders.iter().enumerate();
+            colliders
+                .map(|(number, collider)| {
+                    let owner = Owner { slot: index, row, number: number as u32 };
+                    self.push_collider(owner, collider, place(collider))
+                })
                 .collect()
         } else {
             Vec::new()
@@ -217,16 +231,7 @@ impl Bodies {
         self.states.len() - 1
     }
 
-    fn push_collider(
-        &mut self,
-        slot: u32,
-        row: usize,
-        index: usize,
-        description: &Body,
-        mass: &BodyMass,
-    ) -> u32 {
-        let collider = &description.colliders[index];
-        let local = Pose::new(collider.pose.position - mass.center, collider.pose.rotation.normalize());
+    fn push_collider(&mut self, owner: Owner, collider: &Collider, local: Pose) -> u32 {
         let reach = collider.shape.reach(local.inverse_transform_point(DVec3::ZERO));
         let spin_reach = match collider.shape {
             Shape::Sphere { .. } => local.position.length(),
@@ -234,9 +239,9 @@ impl Bodies {
             _ => reach,
         };
         let entry = ColliderRow {
-            slot,
-            row,
-            index: index as u32,
+            slot: owner.slot,
+            row: owner.row,
+            index: owner.number,
             shape: collider.shape.clone(),
             local,
             reach,

@@ -18,14 +18,13 @@ pub struct Hit {
     pub after_a: Velocity,
     /// `b` afterwards.
     pub after_b: Velocity,
-    /// Relative rounding of the velocities and momenta above: [`SINGLE`] for what the engine stores, [`DOUBLE`] for what
+    /// Relative rounding of the velocities and momenta above: [`STORED`] for what the engine stores, [`DOUBLE`] for what
     /// the seed's formula returns.
     pub rounding: f64,
 }
 
-/// Relative rounding of what is stored in single precision: the last place, twice for good measure (linear velocity
-/// and angular momentum are rounded before and after).
-pub const SINGLE: f64 = 2.0 * f32::EPSILON as f64;
+/// Relative rounding of what the engine stores: double precision, and what turning momentum into velocity and back costs.
+pub const STORED: f64 = 1e-12;
 
 /// Relative rounding of a short calculation in double precision.
 pub const DOUBLE: f64 = 64.0 * f64::EPSILON;

@@ -1,7 +1,7 @@
 //! What a step has to tell.
 
 use crate::bodies::BodyId;
-use crate::conditions::{Hit, SINGLE};
+use crate::conditions::{Hit, STORED};
 use crate::impulse::{Contact, Resolution, Side, Velocity, resolve};
 use crate::math::{DVec3, Pose};
 
@@ -126,7 +126,7 @@ pub struct Impact {
     pub pose_a: Pose,
     /// Centre of mass and orientation of `b`'s frame at that instant.
     pub pose_b: Pose,
-    /// `a` as it left: what the engine has stored, single precision and all.
+    /// `a` as it left, read back from what the engine has stored.
     pub after_a: Velocity,
     /// `b` as it left.
     pub after_b: Velocity,
@@ -151,7 +151,7 @@ impl Impact {
             b: self.side_b,
             after_a: self.after_a,
             after_b: self.after_b,
-            rounding: SINGLE,
+            rounding: STORED,
         }
     }
 }

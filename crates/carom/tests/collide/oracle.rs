@@ -200,8 +200,7 @@ fn least_separation_is_the_distance() {
             }
             // Two cuboids apart: at least the lower bound, and never more than the distance.
             let ((shape_a, pose_a), (shape_b, pose_b)) = (parry(&a), parry(&b));
-            let distance =
-                f64::from(query::distance(&pose_a, &*shape_a, &pose_b, &*shape_b).unwrap().distance);
+            let distance = query::distance(&pose_a, &*shape_a, &pose_b, &*shape_b).unwrap().distance;
             assert!(
                 least >= ours - 1e-9 && least <= distance + 2e-4,
                 "{ours} {least} {distance} {a:?} {b:?}"
