@@ -35,3 +35,7 @@ pub mod prelude {
     pub use crate::math::{DQuat, DVec3, Quat, Vec3};
     pub use crate::{Body, BodyId, Collider, Material, Motion, Shape, World};
 }
+
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+struct ReadmeExamples;

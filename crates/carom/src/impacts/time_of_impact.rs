@@ -131,11 +131,13 @@ impl<'a> Approach<'a> {
 
     /// The rest threshold along `normal`, m/s: a body that leaves more slowly is pressed back within one substep,
     /// so that gravity and the substep cannot tell its bounce from rest: `½ a h`, with `a` the acceleration of `b` against
-    /// `a` by gravity and forces as far as it presses the two together.
+    /// `a` that presses the two together: by gravity and forces alone, or with what holds the one that already rests.
     pub fn rest_speed(&self, normal: DVec3) -> f64 {
         let free =
             |collider: &ColliderRow| free_influence(self.bodies, collider.row, self.law.gravity).acceleration;
-        let pressing = -(free(self.b) - free(self.a)).dot(normal);
+        let held = |collider: &ColliderRow| self.bodies.influences[collider.row].acceleration;
+        let pressing =
+            (free(self.a) - free(self.b)).dot(normal).max((held(self.a) - held(self.b)).dot(normal));
         self.noise.max(0.5 * pressing * self.law.substep)
     }
 
