@@ -88,10 +88,9 @@ impl Hull {
         self.bounds = (low, high);
         self.middle = vertices.iter().sum::<DVec3>() / vertices.len().max(1) as f64;
         let outlines = self.faces.iter().map(|face| &self.outlines[face.corners.clone()]);
-        let extent = (high - low).max_element();
         let sides = self.triangles.iter().zip(&self.face_of);
         let sides = sides.filter_map(|(&triangle, &face)| Some((triangle, face?)));
-        self.climb = Climb::new(vertices, &self.triangles, outlines, sides, self.face_normals(), extent);
+        self.climb = Climb::new(vertices, &self.triangles, outlines, sides, self.face_normals());
         self.finds_faces = self.faces.iter().all(|face| {
             let found = self.face_towards(face.normal).0 as usize;
             self.faces[found].normal.distance(face.normal) <= 1e-9

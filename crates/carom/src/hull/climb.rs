@@ -64,14 +64,13 @@ impl Climb {
     /// `None` where it is not worth it: there are few corners, or the surface has dents that a climb ends in.
     ///
     /// `outlines` are the corners of the flat sides, `faces` the triangles that these consist of, `normals` their
-    /// directions, `extent` (m) the hull's size.
+    /// directions.
     pub fn new<'a>(
         vertices: &[DVec3],
         triangles: &[[u32; 3]],
         outlines: impl Iterator<Item = &'a [u32]>,
         faces: impl Iterator<Item = ([u32; 3], u32)>,
         normals: impl Iterator<Item = DVec3>,
-        extent: f64,
     ) -> Option<Self> {
         if vertices.len() <= FEW {
             return None;
@@ -98,6 +97,8 @@ impl Climb {
             climb.starts.push(start);
         }
         let middles = (0..climb.starts.len()).map(|square| climb.middle(square));
+        let low = vertices.iter().copied().fold(DVec3::INFINITY, DVec3::min);
+        let extent = (vertices.iter().copied().fold(low, DVec3::max) - low).max_element();
         let reaches_top = |direction: DVec3| {
             let [found, top] = [climb.highest(vertices, direction), highest(vertices, direction)]
                 .map(|index| vertices[index as usize].dot(direction));
