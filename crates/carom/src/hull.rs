@@ -3,9 +3,11 @@
 use crate::error::{Invalid, limits};
 use crate::math::DVec3;
 use crate::mesh::check_points;
+use climb::Climb;
 use quickhull::quickhull;
 use std::ops::Range;
 
+mod climb;
 mod quickhull;
 
 /// Points this close to a plane, as a fraction of the hull's extent, lie in it.
@@ -19,6 +21,16 @@ pub struct Hull {
     faces: Vec<Face>,
     /// The corners of all faces, one face after the other.
     outlines: Vec<u32>,
+    /// The flat side that each triangle belongs to; none for a triangle without area.
+    face_of: Vec<Option<u32>>,
+    /// The way up; without it corners and faces are searched one by one.
+    climb: Option<Climb>,
+    /// Whether the climb leads to every flat side. Among slivers it may not.
+    finds_faces: bool,
+    /// The box around the corners: lowest and highest corner, m.
+    bounds: (DVec3, DVec3),
+    /// The mean of the corners, m.
+    middle: DVec3,
 }
 
 /// A flat side: triangles in one plane taken together.
@@ -61,12 +73,29 @@ impl Hull {
             .filter(|&vertex| hull.outlines.iter().filter(|&&corner| corner == vertex).count() > 2)
             .map(|vertex| hull.vertices[vertex as usize])
             .collect();
-        if true_corners.len() == hull.vertices.len() {
-            return Ok(hull);
-        }
-        Ok(Self::spanned(&true_corners, tolerance)
-            .filter(|lean| lean.holds(&distinct, 10.0 * tolerance))
-            .unwrap_or(hull))
+        let lean = (true_corners.len() < hull.vertices.len())
+            .then(|| Self::spanned(&true_corners, tolerance))
+            .flatten()
+            .filter(|lean| lean.holds(&distinct, 10.0 * tolerance));
+        Ok(lean.unwrap_or(hull).measured())
+    }
+
+    /// Fills in what is known once the corners and faces are.
+    fn measured(mut self) -> Self {
+        let vertices = &self.vertices;
+        let low = vertices.iter().copied().fold(DVec3::INFINITY, DVec3::min);
+        let high = vertices.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
+        self.bounds = (low, high);
+        self.middle = vertices.iter().sum::<DVec3>() / vertices.len().max(1) as f64;
+        let outlines = self.faces.iter().map(|face| &self.outlines[face.corners.clone()]);
+        let sides = self.triangles.iter().zip(&self.face_of);
+        let sides = sides.filter_map(|(&triangle, &face)| Some((triangle, face?)));
+        self.climb = Climb::new(vertices, &self.triangles, outlines, sides, self.face_normals());
+        self.finds_faces = self.faces.iter().all(|face| {
+            let found = self.face_towards(face.normal).0 as usize;
+            self.faces[found].normal.distance(face.normal) <= 1e-9
+        });
+        self
     }
 
     fn spanned(points: &[DVec3], tolerance: f64) -> Option<Self> {
@@ -77,7 +106,17 @@ impl Hull {
         let renumbered = |index: usize| used.partition_point(|&other| other < index) as u32;
         let triangles = found.iter().map(|triangle| triangle.map(renumbered)).collect();
         let vertices = used.iter().map(|&index| points[index]).collect();
-        let mut hull = Self { vertices, triangles, faces: Vec::new(), outlines: Vec::new() };
+        let mut hull = Self {
+            vertices,
+            triangles,
+            faces: Vec::new(),
+            outlines: Vec::new(),
+            face_of: Vec::new(),
+            climb: None,
+            finds_faces: true,
+            bounds: (DVec3::ZERO, DVec3::ZERO),
+            middle: DVec3::ZERO,
+        };
         hull.find_faces(10.0 * tolerance);
         Some(hull)
     }
@@ -99,18 +138,59 @@ impl Hull {
         &self.triangles
     }
 
-    /// The flat side whose outward normal is closest to `direction`: its number and its corners, anticlockwise from
-    /// outside.
+    /// The corner that lies farthest in `direction` (of any length): its number.
+    pub(crate) fn highest(&self, direction: DVec3) -> u32 {
+        match &self.climb {
+            Some(climb) => climb.highest(&self.vertices, direction),
+            None => climb::highest(&self.vertices, direction),
+        }
+    }
+
+    /// The point that lies farthest in `direction` (of any length).
+    pub(crate) fn support(&self, direction: DVec3) -> DVec3 {
+        self.vertices.get(self.highest(direction) as usize).copied().unwrap_or(DVec3::ZERO)
+    }
+
+    /// The box around its corners: lowest and highest corner, m.
+    pub(crate) fn bounds(&self) -> (DVec3, DVec3) {
+        self.bounds
+    }
+
+    /// The mean of its corners, m.
+    pub(crate) fn middle(&self) -> DVec3 {
+        self.middle
+    }
+
+    /// The flat side at the farthest corner whose outward normal is closest to `direction`: its number and its corners,
+    /// anticlockwise from outside.
     pub(crate) fn face_towards(&self, direction: DVec3) -> (u32, &[u32]) {
-        let mut best = (0, f64::NEG_INFINITY);
-        for (index, face) in self.faces.iter().enumerate() {
-            let along = face.normal.dot(direction);
-            if along > best.1 {
-                best = (index, along);
+        let closest = |best: (u32, f64), face: u32| {
+            let along = self.faces[face as usize].normal.dot(direction);
+            if along > best.1 { (face, along) } else { best }
+        };
+        let none = (0, f64::NEG_INFINITY);
+        let Some(climb) = self.climb.as_ref().filter(|_| self.finds_faces) else {
+            let best = (0..self.faces.len() as u32).fold(none, closest);
+            return (best.0, self.corners_of(best.0));
+        };
+        let top = climb.highest(&self.vertices, direction);
+        let mut best = climb.faces_at(top).iter().copied().fold(none, closest);
+        // Where rounding decides which corner is the farthest, the closest side may be the next one over.
+        loop {
+            let here = best.0;
+            for &corner in self.corners_of(here) {
+                best = climb.faces_at(corner).iter().copied().fold(best, closest);
+            }
+            if best.0 == here {
+                break;
             }
         }
-        let corners = self.faces.get(best.0).map_or(0..0, |face| face.corners.clone());
-        (best.0 as u32, &self.outlines[corners])
+        (best.0, self.corners_of(best.0))
+    }
+
+    fn corners_of(&self, face: u32) -> &[u32] {
+        let corners = self.faces.get(face as usize).map_or(0..0, |face| face.corners.clone());
+        &self.outlines[corners]
     }
 
     /// A number of its own for the side between two corners, the same from both ends.
@@ -136,7 +216,7 @@ impl Hull {
         let areas: Vec<f64> = self.triangles.iter().map(|&triangle| cross(triangle).length()).collect();
         order.sort_unstable_by(|&one, &other| areas[other].total_cmp(&areas[one]).then(one.cmp(&other)));
 
-        let mut face_of: Vec<Option<usize>> = vec![None; self.triangles.len()];
+        let mut face_of: Vec<Option<u32>> = vec![None; self.triangles.len()];
         let (mut faces, mut outlines) = (Vec::new(), Vec::new());
         for &seed in &order {
             if face_of[seed].is_some() {
@@ -149,11 +229,14 @@ impl Hull {
             let [origin, ..] = corners(self.triangles[seed]);
             let mut sides: Vec<(u32, u32)> = Vec::new();
             for (index, &triangle) in self.triangles.iter().enumerate() {
+                if face_of[index].is_some() {
+                    continue;
+                }
                 let in_plane =
                     corners(triangle).iter().all(|&point| (point - origin).dot(normal).abs() <= tolerance);
                 // Both sides of a plate thinner than the tolerance lie in the plane; only one looks this way.
-                if face_of[index].is_none() && in_plane && cross(triangle).dot(normal) >= 0.0 {
-                    face_of[index] = Some(faces.len());
+                if in_plane && cross(triangle).dot(normal) >= 0.0 {
+                    face_of[index] = Some(faces.len() as u32);
                     sides.extend((0..3).map(|side| (triangle[side], triangle[(side + 1) % 3])));
                 }
             }
@@ -166,6 +249,7 @@ impl Hull {
         }
         self.faces = faces;
         self.outlines = outlines;
+        self.face_of = face_of;
     }
 }
 
@@ -281,6 +365,95 @@ mod tests {
                 assert!(highest(&points) - highest(hull.vertices()) <= 1e-9 * scale, "round {round}");
             }
             assert!(MassProperties::polyhedron(hull.vertices(), hull.triangles(), 1.0).mass > 0.0, "{round}");
+        }
+    }
+
+    /// Clouds whose hulls have many corners: round, flat-sided, long and thin, nearly flat all over.
+    fn many_cornered() -> Vec<Vec<DVec3>> {
+        let mut number = numbers(5);
+        let mut clouds = Vec::new();
+        let stretches =
+            [DVec3::ONE, DVec3::new(1.0, 1e-3, 1.0), DVec3::new(1.0, 1e-4, 1e-4), DVec3::new(9.0, 1.0, 0.3)];
+        for round in 0..24 {
+            let turn = rotation_from_vector(DVec3::new(number(), number(), number()) * 3.0);
+            let stretch = stretches[round % 4];
+            let count = 60 + (number() * 500.0) as usize;
+            let ball = (0..count).map(|_| {
+                let p = DVec3::new(number(), number(), number()) - DVec3::splat(0.5);
+                turn * (p.normalize() * stretch)
+            });
+            clouds.push(ball.collect());
+            // A prism: two sides with as many corners as there are others.
+            let around = (0..count / 2).flat_map(|k| {
+                let (sine, cosine) = (std::f64::consts::TAU * k as f64 / (count / 2) as f64).sin_cos();
+                [-0.5, 0.5].map(|y| turn * (DVec3::new(sine, y, cosine) * stretch))
+            });
+            clouds.push(around.collect());
+            // A cube cut fine, turned and rounded off; its sides bulge, dent or stay flat within rounding.
+            let bulge = [0.0, 1e-12, 1e-10, 1e-8, 1e-4, 0.1][round / 4];
+            let mut grid = Vec::new();
+            for cell in 0..9_u32.pow(3) {
+                let place = |k: u32| f64::from(cell / 9_u32.pow(k) % 9) / 4.0 - 1.0;
+                let p = DVec3::new(place(0), place(1), place(2));
+                if p.abs().max_element() == 1.0 {
+                    let noise = DVec3::new(number(), number(), number()) * bulge * 0.1;
+                    grid.push(turn * ((p * (1.0 - bulge * p.length_squared()) + noise) * stretch));
+                }
+            }
+            clouds.push(grid);
+        }
+        clouds
+    }
+
+    #[test]
+    fn the_climb_ends_at_the_highest_corner() {
+        let mut number = numbers(6);
+        let mut climbed = 0;
+        for points in many_cornered() {
+            let Ok(hull) = Hull::new(&points) else { continue };
+            climbed += u32::from(hull.climb.is_some());
+            let (low, high) = hull.bounds();
+            let extent = (high - low).max_element();
+            let random = (0..300).map(|_| DVec3::new(number(), number(), number()) - DVec3::splat(0.5));
+            // Along the axes of the sides and of the edges, and hardly off them, many corners are nearly as high.
+            let normals = hull.face_normals().flat_map(|n| [n, n + DVec3::splat(1e-9), n - DVec3::X * 1e-6]);
+            let edges = hull.triangles().iter().map(|t| {
+                let [a, b] = [t[0], t[1]].map(|index| hull.vertices()[index as usize]);
+                (b - a).normalize_or_zero()
+            });
+            let axes = DVec3::AXES.into_iter().flat_map(|axis| [axis, -axis]);
+            for direction in random.chain(normals).chain(edges).chain(axes).take(4000) {
+                let height = |index: u32| hull.vertices()[index as usize].dot(direction);
+                let (found, top) = (hull.highest(direction), climb::highest(hull.vertices(), direction));
+                assert!(
+                    found == top || height(top) - height(found) <= 1e-12 * extent * direction.length(),
+                    "{} of {} along {direction}",
+                    height(top) - height(found),
+                    hull.vertices().len(),
+                );
+            }
+        }
+        assert!(climbed >= 48, "only {climbed} of 72 are climbed at all");
+    }
+
+    #[test]
+    fn the_side_that_faces_a_direction_is_at_the_highest_corner() {
+        let mut number = numbers(7);
+        for points in many_cornered() {
+            let Ok(hull) = Hull::new(&points) else { continue };
+            for _ in 0..200 {
+                let direction = DVec3::new(number(), number(), number()) - DVec3::splat(0.5);
+                let top = hull.highest(direction);
+                let here = |face: &Face| hull.outlines[face.corners.clone()].contains(&top);
+                let best = hull.faces.iter().filter(|face| here(face)).map(|face| face.normal.dot(direction));
+                let (found, _) = hull.face_towards(direction);
+                let along = hull.faces[found as usize].normal.dot(direction);
+                assert!(along >= best.fold(f64::NEG_INFINITY, f64::max));
+            }
+            for normal in hull.face_normals() {
+                let (face, _) = hull.face_towards(normal);
+                assert!(hull.faces[face as usize].normal.dot(normal) > 1.0 - 1e-9);
+            }
         }
     }
 

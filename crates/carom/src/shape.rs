@@ -181,7 +181,14 @@ impl Shape {
                 (center + (-half - bottom).min(half - top), center + (-half + bottom).max(half + top))
             }
             Shape::Plane => (DVec3::NEG_INFINITY, DVec3::INFINITY),
-            Shape::Hull(hull) => bounds_of_points(hull.vertices(), pose),
+            Shape::Hull(hull) => {
+                let farthest = |axis: DVec3| {
+                    pose.transform_point(hull.support(pose.rotation.conjugate() * axis)).dot(axis)
+                };
+                let ends =
+                    |sign: f64| sign * DVec3::from_array(DVec3::AXES.map(|axis| farthest(axis * sign)));
+                (ends(-1.0), ends(1.0))
+            }
             Shape::Mesh(mesh) => bounds_of_points(mesh.vertices(), pose),
         }
     }

@@ -125,8 +125,8 @@ fn convex_manifold(
 ) -> Option<Manifold> {
     let (convex_a, convex_b) = (a.0, b.0);
     let inner = a.1.relative(b.1);
-    let mut least = axis::least_gap(&convex_a.core, &convex_b.core, &inner);
     let radii = convex_a.radius + convex_b.radius;
+    let mut least = axis::gap_within(&convex_a.core, &convex_b.core, &inner, radii + margin)?;
     if least.gap - radii > margin {
         return None;
     }

@@ -43,6 +43,12 @@ impl SupportMap for Scaled<'_> {
 /// Between polyhedra the gap is good to rounding, where a core is curved to 10⁻⁸ of the smaller core: so much it may
 /// fall short, and jitter from pose to pose.
 pub(super) fn least_gap(a: &Core, b: &Core, b_in_a: &Pose) -> Axis {
+    gap_within(a, b, b_in_a, f64::MAX)
+        .unwrap_or_else(|| best_guess(a, b, b_in_a, &|n| along(a, b, b_in_a, n)))
+}
+
+/// As [`least_gap`], but `None` as soon as it is clear that the cores are farther apart than `limit` (m).
+pub(super) fn gap_within(a: &Core, b: &Core, b_in_a: &Pose, limit: f64) -> Option<Axis> {
     const ROUNDS: usize = 12;
     const APART: f64 = 0.01;
     let (reach_a, reach_b) = (a.reach(), b.reach());
@@ -56,11 +62,7 @@ pub(super) fn least_gap(a: &Core, b: &Core, b_in_a: &Pose) -> Axis {
         translation: (b_in_a.position + shift) / unit,
     };
 
-    let along = |normal: DVec3| {
-        let on_a = a.support(normal);
-        let on_b = b_in_a.transform_point(b.support(turn.conjugate() * -normal));
-        Axis { normal, gap: (on_b - on_a).dot(normal), on_a, on_b }
-    };
+    let along = |normal: DVec3| along(a, b, b_in_a, normal);
     let measured = |found: &GJKResult, shift: DVec3| match *found {
         GJKResult::ClosestPoints(on_a, on_b, direction) => {
             // Between the points while they are apart; parry's own where they coincide.
@@ -77,14 +79,22 @@ pub(super) fn least_gap(a: &Core, b: &Core, b_in_a: &Pose) -> Axis {
         &pose(DVec3::ZERO),
         &scaled_a,
         &scaled_b,
-        f64::MAX,
+        // Rounding must not turn away what is just near enough.
+        (limit / unit + 1e-6).min(f64::MAX),
         &mut simplex,
         None,
     );
+    // parry says the same where it gives up.
+    if let GJKResult::NoIntersection(direction) = start
+        && limit < f64::MAX
+    {
+        let apart = along(direction.normalize_or_zero()).gap > limit;
+        return if apart { None } else { gap_within(a, b, b_in_a, f64::MAX) };
+    }
     let mut best = measured(&start, DVec3::ZERO).unwrap_or_else(|| best_guess(a, b, b_in_a, &along));
     // No direction has a gap wider than the distance of two points.
     if best.gap >= 1e-3 * size && best.on_a.distance(best.on_b) - best.gap <= 1e-10 * size {
-        return best;
+        return Some(best);
     }
     for _ in 0..ROUNDS {
         let shift = best.normal * (APART * size - best.gap.min(0.0));
@@ -100,7 +110,14 @@ pub(super) fn least_gap(a: &Core, b: &Core, b_in_a: &Pose) -> Axis {
             break;
         }
     }
-    if a.is_curved() || b.is_curved() { uphill(best, size, &along) } else { best }
+    Some(if a.is_curved() || b.is_curved() { uphill(best, size, &along) } else { best })
+}
+
+/// The gap along `normal` (in a's frame).
+pub(super) fn along(a: &Core, b: &Core, b_in_a: &Pose, normal: DVec3) -> Axis {
+    let on_a = a.support(normal);
+    let on_b = b_in_a.transform_point(b.support(b_in_a.rotation.conjugate() * -normal));
+    Axis { normal, gap: (on_b - on_a).dot(normal), on_a, on_b }
 }
 
 /// Turns the axis uphill as long as the gap widens. GJK's simplex degenerates on curved cores and stalls some 10⁻⁴ rad

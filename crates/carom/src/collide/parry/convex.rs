@@ -122,7 +122,7 @@ impl Core<'_> {
                 let out = DVec3::new(direction.x, 0.0, direction.z).normalize_or_zero();
                 farther(on_axis(half) + out * top, on_axis(-half) + out * bottom)
             }
-            Core::Hull(hull) => hull.vertices().iter().copied().reduce(farther).unwrap_or(DVec3::ZERO),
+            Core::Hull(hull) => hull.support(direction),
             Core::Triangle { corners: [a, b, c], .. } => farther(farther(a, b), c),
         }
     }
@@ -136,9 +136,12 @@ impl Core<'_> {
             Core::Balls { half, bottom, top } | Core::Frustum { half, bottom, top } => {
                 half.max(bottom).max(top)
             }
-            Core::Hull(_) | Core::Triangle { .. } => {
-                let extent = |axis: DVec3| (self.support(axis) - self.support(-axis)).dot(axis);
-                0.5 * extent(DVec3::X).max(extent(DVec3::Y)).max(extent(DVec3::Z))
+            Core::Hull(hull) => {
+                let (low, high) = hull.bounds();
+                0.5 * (high - low).max_element()
+            }
+            Core::Triangle { corners: [a, b, c], .. } => {
+                0.5 * (a.max(b).max(c) - a.min(b).min(c)).max_element()
             }
         }
     }
@@ -151,10 +154,7 @@ impl Core<'_> {
     /// A point well inside.
     pub fn middle(&self) -> DVec3 {
         match self {
-            Core::Hull(hull) => {
-                let vertices = hull.vertices();
-                vertices.iter().sum::<DVec3>() / vertices.len().max(1) as f64
-            }
+            Core::Hull(hull) => hull.middle(),
             Core::Triangle { corners: [a, b, c], .. } => (*a + *b + *c) / 3.0,
             _ => DVec3::ZERO,
         }

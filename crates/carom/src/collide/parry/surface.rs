@@ -33,6 +33,43 @@ fn nearby(mesh: &Mesh, low: DVec3, high: DVec3, margin: f64) -> Vec<u32> {
     found
 }
 
+/// A gap (m) between a triangle and a convex shape that their distance is no less than: the widest along a few
+/// directions, at the price of a few support points. `inner` is the other's pose in the mesh's frame.
+fn gap_at_least(triangle: &Convex, convex: &Convex, inner: &Pose) -> f64 {
+    let Core::Triangle { corners: [a, b, c], .. } = triangle.core else { return f64::NEG_INFINITY };
+    let middle = inner.transform_point(convex.core.middle());
+    let across = (b - a).cross(c - a).normalize_or_zero();
+    let own = if across.dot(middle - a) < 0.0 { -across } else { across };
+    let towards = (middle - closest_point([a, b, c], middle)).normalize_or_zero();
+    let gap = |normal: DVec3| match normal == DVec3::ZERO {
+        true => f64::NEG_INFINITY,
+        false => axis::along(&triangle.core, &convex.core, inner, normal).gap,
+    };
+    gap(own).max(gap(towards)) - convex.radius
+}
+
+/// The triangle's point closest to `point`.
+fn closest_point(corners: [DVec3; 3], point: DVec3) -> DVec3 {
+    let [a, b, c] = corners;
+    let across = (b - a).cross(c - a);
+    let beyond = |side: usize| {
+        let (from, to) = (corners[side], corners[(side + 1) % 3]);
+        (to - from).cross(point - from).dot(across) < 0.0
+    };
+    if !(0..3).any(beyond) {
+        return point - across * ((point - a).dot(across) / across.length_squared());
+    }
+    let on_side = |side: usize| {
+        let (from, to) = (corners[side], corners[(side + 1) % 3]);
+        let part = (point - from).dot(to - from) / (to - from).length_squared();
+        from + (to - from) * part.clamp(0.0, 1.0)
+    };
+    let nearer = |one: DVec3, other: DVec3| {
+        if other.distance_squared(point) < one.distance_squared(point) { other } else { one }
+    };
+    nearer(nearer(on_side(0), on_side(1)), on_side(2))
+}
+
 /// The least separation of any triangle from `other`, which is no plane.
 pub(super) fn separation(mesh: &Mesh, pose: &Pose, other: &Shape, other_pose: &Pose) -> f64 {
     let inner = pose.relative(other_pose);
@@ -41,21 +78,39 @@ pub(super) fn separation(mesh: &Mesh, pose: &Pose, other: &Shape, other_pose: &P
     let boxes_apart = (mesh_low - high).max(low - mesh_high).max(DVec3::ZERO).length();
     // What is not found by the search is farther off than this.
     let horizon = (0.25 * (high - low).max_element()).max(boxes_apart);
-    let mut least = horizon;
-    for index in nearby(mesh, low, high, horizon) {
+    let near = nearby(mesh, low, high, horizon);
+    match (Convex::of(other), other) {
+        (Some(convex), _) => least_separation(mesh, near, &convex, &inner, horizon),
+        (None, Shape::Mesh(other)) => {
+            let turned = other_pose.relative(pose);
+            near.into_iter().fold(horizon, |least, index| {
+                let triangle = triangle_core(mesh, index);
+                let (low, high) = triangle_bounds(mesh, index, &turned);
+                let found = nearby(other, low, high, least.min(horizon));
+                least_separation(other, found, &triangle, &turned, least)
+            })
+        }
+        (None, _) => horizon,
+    }
+}
+
+/// The least separation of the triangles `near` from a convex shape, if it is below `least`. What is sure to be no
+/// closer than something else is not measured: likely ones go first.
+fn least_separation(mesh: &Mesh, near: Vec<u32>, convex: &Convex, inner: &Pose, least: f64) -> f64 {
+    let bound = |index: u32| gap_at_least(&triangle_core(mesh, index), convex, inner);
+    let mut queue: Vec<(f64, u32)> = near.into_iter().map(|index| (bound(index), index)).collect();
+    queue.sort_unstable_by(|one, other| one.0.total_cmp(&other.0).then(one.1.cmp(&other.1)));
+    let mut least = least;
+    for (bound, index) in queue {
+        // Of those that overlap the shortest way out is known only once it is measured.
+        if bound > least.max(0.0) {
+            break;
+        }
         let triangle = triangle_core(mesh, index);
-        let gap = match (Convex::of(other), other) {
-            (Some(convex), _) => axis::least_gap(&triangle.core, &convex.core, &inner).gap - convex.radius,
-            (None, Shape::Mesh(other)) => {
-                let (low, high) = triangle_bounds(mesh, index, &other_pose.relative(pose));
-                nearby(other, low, high, horizon).into_iter().fold(horizon, |least, other_index| {
-                    let other_triangle = triangle_core(other, other_index);
-                    least.min(axis::least_gap(&triangle.core, &other_triangle.core, &inner).gap)
-                })
-            }
-            (None, _) => f64::INFINITY,
-        };
-        least = least.min(gap);
+        let limit = least.max(0.0) + convex.radius;
+        if let Some(axis) = axis::gap_within(&triangle.core, &convex.core, inner, limit) {
+            least = least.min(axis.gap - convex.radius);
+        }
     }
     least
 }
@@ -71,10 +126,15 @@ pub(super) fn manifolds(
     let first = out.len();
     let inner = pose.relative(other.1);
     let (low, high) = other.0.bounds(&inner);
+    // Rounding must not turn away what is just near enough.
+    let slack = 1e-9 * (high - low).max_element();
     for index in nearby(mesh, low, high, margin) {
         let triangle = triangle_core(mesh, index);
         match (Convex::of(other.0), other.0) {
             (Some(convex), _) => {
+                if gap_at_least(&triangle, &convex, &inner) > margin + slack {
+                    continue;
+                }
                 let middle = inner.transform_point(convex.core.middle());
                 let correct = |normal: DVec3| surface_normal(mesh, index, normal, middle);
                 let surface = OnSurface { correct: &correct, known: &out[first..] };

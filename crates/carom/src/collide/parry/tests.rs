@@ -459,3 +459,47 @@ fn odd_poses_make_no_trouble() {
         }
     }
 }
+
+/// A ball of many corners, and a ground of hills.
+fn ball_over_hills() -> (Shape, crate::mesh::Mesh) {
+    let mut number = numbers(31);
+    let points: Vec<DVec3> =
+        (0..400).map(|_| DVec3::new(number(), number(), number()).normalize() * 0.7).collect();
+    let vertices = (0..16 * 16).map(|k| {
+        let (x, z) = (f64::from(k % 16) - 7.5, f64::from(k / 16) - 7.5);
+        DVec3::new(0.2 * x, 0.1 * number(), 0.2 * z)
+    });
+    let vertices: Vec<DVec3> = vertices.collect();
+    let cells = (0..16 * 15).filter(|k| k % 16 < 15);
+    let triangles = cells.flat_map(|k| [[k, k + 16, k + 1], [k + 1, k + 16, k + 17]]).collect();
+    (Shape::hull(&points).unwrap(), crate::mesh::Mesh::new(vertices, triangles).unwrap())
+}
+
+#[test]
+fn what_a_mesh_leaves_unmeasured_changes_nothing() {
+    let (ball, mesh) = ball_over_hills();
+    let mut number = numbers(32);
+    for _ in 0..60 {
+        let (pose_a, mut pose_b) = (pose(&mut number, 0.5), pose(&mut number, 0.8));
+        pose_b.position += pose_a.rotation * DVec3::Y * (0.7 + 0.3 * number());
+        let inner = pose_a.relative(&pose_b);
+        let Kind::Convex(convex) = Kind::of(&ball) else { unreachable!() };
+        let gaps: Vec<f64> = (0..mesh.triangles().len() as u32)
+            .map(|index| {
+                let (corners, vertices) = (mesh.corners(index), mesh.triangles()[index as usize]);
+                axis::least_gap(&convex::Core::Triangle { corners, index, vertices }, &convex.core, &inner)
+                    .gap
+            })
+            .collect();
+        let least = gaps.iter().copied().fold(f64::INFINITY, f64::min);
+        let shape = Shape::Mesh(mesh.clone().into());
+        let found = separation(&shape, &pose_a, &ball, &pose_b);
+        assert!((found - least).abs() <= 1e-12 || (least > 0.3 && found > 0.3), "{found} {least}");
+        for margin in [0.0, 0.02, 0.3] {
+            let mut manifolds = Vec::new();
+            super::manifolds((&shape, &pose_a), (&ball, &pose_b), margin, &mut manifolds);
+            assert_eq!(manifolds.is_empty(), least > margin, "{least} {margin}");
+            assert!(manifolds.len() <= gaps.iter().filter(|&&gap| gap <= margin).count());
+        }
+    }
+}
