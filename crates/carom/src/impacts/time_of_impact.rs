@@ -162,7 +162,8 @@ impl<'a> Approach<'a> {
         let mut fastest: Option<Touch> = None;
         for manifold in &manifolds {
             let rest_speed = self.rest_speed(manifold.normal);
-            let limit = share_of_limit * if rests { rest_speed.max(self.law.drift_speed()) } else { self.noise };
+            let limit =
+                share_of_limit * if rests { rest_speed.max(self.law.drift_speed()) } else { self.noise };
             for contact in manifold.points() {
                 let point = contact.point;
                 let closing_speed = (velocity(self.b, point) - velocity(self.a, point)).dot(manifold.normal);
