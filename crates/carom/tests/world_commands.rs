@@ -2,9 +2,11 @@
 
 use carom::math::DVec3;
 use carom::prelude::*;
-use carom::{Invalid, PrincipalInertia, Settings};
+use carom::{BodyMut, Invalid, PrincipalInertia, Settings};
 
 const STEP: f64 = 1.0 / 60.0;
+
+type Command = fn(&mut BodyMut<'_>) -> Result<(), Invalid>;
 
 fn floating() -> World {
     World::with_settings(Settings { gravity: DVec3::ZERO, ..Settings::default() })
@@ -153,7 +155,7 @@ fn sleep_ends_by_command_and_by_being_struck() {
     assert!((world[other].position().y - (5.0 - 0.5 * 9.81 * 0.25)).abs() < 1e-9);
 
     // Every command wakes.
-    let commands: [fn(&mut carom::BodyMut<'_>) -> Result<(), Invalid>; 6] = [
+    let commands: [Command; 6] = [
         |it| it.add_force(DVec3::X),
         |it| it.add_torque(DVec3::X),
         |it| it.apply_impulse(DVec3::X),
