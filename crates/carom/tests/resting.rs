@@ -61,6 +61,27 @@ fn a_stack_of_three_stands_for_ten_seconds() {
 }
 
 #[test]
+fn a_stack_that_falls_into_place_stands() {
+    for restitution in [0.0, 0.5] {
+        let mut world = World::new();
+        world.add(slab());
+        let boxes = [0.55, 1.6, 2.65].map(|y| {
+            let cube = Body::dynamic().at(0.0, y, 0.0).with(Shape::cuboid(1.0, 1.0, 1.0));
+            world.add(cube.restitution(restitution))
+        });
+        run(&mut world, 5.0);
+        let landed = boxes.map(|id| world[id].position());
+        run(&mut world, 5.0);
+        for ((id, landed), y) in boxes.into_iter().zip(landed).zip([0.5, 1.5, 2.5]) {
+            let place = world[id].position();
+            assert!((place.y - y).abs() < 2e-3, "C_r {restitution}: {place} instead of {y}");
+            assert!((place - landed).length() < 1e-3, "C_r {restitution}: from {landed} to {place}");
+            assert!(world[id].linear_velocity().length() < 1e-3, "C_r {restitution}: {:?}", world[id]);
+        }
+    }
+}
+
+#[test]
 fn a_box_stays_on_a_gentle_slope_and_slides_down_a_steep_one() {
     let slope = |degrees: f64, friction: f64| {
         let mut world = World::new();
