@@ -335,6 +335,7 @@ impl BodyMut<'_> {
     /// # Errors
     /// If the impulse is not finite.
     pub fn apply_impulse(&mut self, impulse: DVec3) -> Result<(), Invalid> {
+        let impulse = Self::finite("impulse", impulse)?;
         let row = self.wake_row();
         self.apply_impulse_at(impulse, self.world.bodies.states[row].position)
     }

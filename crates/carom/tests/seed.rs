@@ -3,36 +3,11 @@
 use carom::conditions::{DOUBLE, Hit, conditions};
 use carom::impulse::{Contact, Side, Velocity, resolve};
 use carom::math::{DMat3, DQuat, DVec3, rotated_diagonal};
+use support::Random;
 
-/// Splitmix64 (Steele, Lea and Flood 2014): the same collisions every time.
-struct Random(u64);
+mod support;
 
 impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn range(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.unit()
-    }
-
-    fn vector(&mut self, size: f64) -> DVec3 {
-        DVec3::new(self.range(-size, size), self.range(-size, size), self.range(-size, size))
-    }
-
-    fn direction(&mut self) -> DVec3 {
-        loop {
-            let vector = self.vector(1.0);
-            if (0.01..1.0).contains(&vector.length_squared()) {
-                return vector.normalize();
-            }
-        }
-    }
-
     fn side(&mut self) -> Side {
         let mass = 10.0_f64.powf(self.range(-2.0, 3.0));
         let (x, y, z) = (self.range(0.1, 1.0), self.range(0.1, 1.0), self.range(0.1, 1.0));
