@@ -140,7 +140,8 @@ pub struct Resolution {
 /// f = −(1 + C_r)·v_c / ((Δv_b − Δv_a)·n)        v_l += f·Δv_l      v_r += f·Δv_r
 /// ```
 ///
-/// With friction see [`with_friction`]; the normal speeds obey the same rule. Bodies that already part are left
+/// With friction the impulse also has a part across the normal, which sticks or slides on Coulomb's cone; the normal
+/// speeds obey the same rule. Bodies that already part are left
 /// alone (a contact pushes, it never pulls), and so are two bodies that nothing can move.
 ///
 /// # Books

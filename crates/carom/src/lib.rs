@@ -1,34 +1,61 @@
 //! Carom: a 3D rigid-body physics engine. Fast, right, and able to explain every collision it resolves.
+//!
+//! # The tour
+//! * [`impulse`] is the seed: how two bodies bounce, in five steps. [`conditions`] holds any collision to the three laws.
+//! * [`Body`], [`Collider`], [`Shape`], [`Material`], [`Filter`] are what you write down; [`World`] takes them and steps.
+//! * [`World::step`] returns a [`StepReport`]; each [`Impact`] in it can be taken apart again with [`Impact::resolve`].
+//! * [`collide`] tells how far apart two shapes are and where they touch; [`mass`] what they weigh.
+//!
+//! Inside, `step.rs` is the page to begin with.
+//!
+//! # Units and signs
+//! SI units, radians, right-handed, y up, quaternions `[x, y, z, w]`. Normals point from `a` to `b`; a closing speed is
+//! negative. Positions are double precision; what a user reads of velocities and rotations is single precision.
+//!
+//! # Features
+//! `deterministic` switches parry and glam to their scalar paths, for equal bits across targets.
 
+// What a user writes down.
+mod body;
+mod filter;
+mod material;
+mod shape;
+
+// What that weighs and is bounded by.
+pub mod hull;
+pub mod mass;
+pub mod mesh;
+
+// The seed, and the laws.
 pub mod conditions;
 pub mod impulse;
-pub mod math;
 
+// The world, and one step of it.
 mod bodies;
-mod body;
-pub mod collide;
-mod error;
-mod filter;
-mod flight;
-pub mod hull;
-mod impacts;
-pub mod mass;
-mod material;
-pub mod mesh;
-pub mod report;
-mod shape;
-mod solver;
+mod commands;
 mod step;
 mod world;
 
+// What a step is made of.
+pub mod collide;
+mod flight;
+mod impacts;
+mod solver;
+
+// What it tells.
+mod error;
+pub mod math;
+pub mod report;
+
 pub use bodies::{BodyId, BodyState};
 pub use body::{Body, Collider, Motion, PrincipalInertia};
+pub use commands::BodyMut;
 pub use error::{Invalid, limits};
 pub use filter::{Accepts, Filter, Groups};
 pub use material::{Combine, Material, Surface};
 pub use report::{Impact, Overlap, StepReport};
 pub use shape::Shape;
-pub use world::{BodyMut, Energy, Momentum, Settings, World};
+pub use world::{Energy, Momentum, Settings, World};
 
 /// What most programs need.
 pub mod prelude {

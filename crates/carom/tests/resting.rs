@@ -276,3 +276,22 @@ fn a_box_pushed_along_the_floor_by_a_turning_wall_does_not_stop_the_clock() {
     let place = world[pushed].position();
     assert!(place.is_finite() && (place.y > 0.4 || place.x.abs().max(place.z.abs()) > 10.0), "{place}");
 }
+
+#[test]
+fn five_cubes_on_top_of_each_other_come_to_rest() {
+    let mut world = World::new();
+    world.add(Body::fixed().at(0.0, -0.5, 0.0).with(Shape::cuboid(20.0, 1.0, 20.0)));
+    let cubes = [0.5, 1.5, 2.5, 3.5, 4.5]
+        .map(|y| world.add(Body::dynamic().at(0.0, y, 0.0).with(Shape::cuboid(1.0, 1.0, 1.0))));
+    let mut hits = 0;
+    for step in 0..900 {
+        let struck = world.step(1.0 / 60.0).impacts().len();
+        hits += if step < 600 { 0 } else { struck };
+    }
+    for (cube, y) in cubes.into_iter().zip([0.5, 1.5, 2.5, 3.5, 4.5]) {
+        let state = &world[cube];
+        assert!(state.linear_velocity().length() < 1e-3, "the cube at {y} m: {state:?}");
+        assert!((state.position().y - y).abs() < 1e-3 && state.position().x.abs() < 1e-3, "{state:?}");
+    }
+    assert_eq!(hits, 0, "in the last five seconds");
+}

@@ -51,25 +51,27 @@ pub(crate) struct ContactRow {
     pub friction: DVec3,
 }
 
-/// How precisely velocities have to agree, relative to the largest correction of the first sweep.
-const AGREEMENT: f64 = 1e-10;
+/// How far the solver goes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Effort {
+    /// Sweeps over all rows at most.
+    pub sweeps: usize,
+    /// It is done when no row changes its velocity by more than this in a sweep, m/s.
+    pub agreement: f64,
+}
 
 /// Finds the impulses of all rows and applies them to the movers. Rows start from the impulses that they hold.
-pub(crate) fn solve(movers: &mut [Mover], rows: &mut [ContactRow], sweeps: usize) {
+pub(crate) fn solve(movers: &mut [Mover], rows: &mut [ContactRow], effort: Effort) {
     for row in rows.iter() {
         apply(movers, row, row.pressure * row.normal + row.friction);
     }
-    let mut first = 0.0_f64;
-    for sweep in 0..sweeps {
+    for _ in 0..effort.sweeps {
         let mut largest = 0.0_f64;
         for row in rows.iter_mut() {
             largest = largest.max(solve_normal(movers, row));
             largest = largest.max(solve_friction(movers, row));
         }
-        if sweep == 0 {
-            first = largest;
-        }
-        if largest <= AGREEMENT * first {
+        if largest <= effort.agreement {
             break;
         }
     }

@@ -16,13 +16,16 @@ use crate::impacts::strike::push;
 use crate::impacts::time_of_impact::{Approach, RestLaw};
 use crate::math::{DMat3, DVec3, rotation_from_vector};
 use crate::report::Feature;
-use crate::solver::contact::{ContactRow, Mover, solve};
+use crate::solver::contact::{ContactRow, Effort, Mover, solve};
 use crate::step::broad_phase::ColliderPair;
 use crate::step::motion::{advance, free_influence};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Sweeps of the solver each time that bodies settle.
-const SWEEPS: usize = 500;
+const SWEEPS: usize = 2000;
+
+/// Velocities of resting points agree when they differ by no more than this share of what gravity does meanwhile.
+const AGREEMENT: f64 = 1e-9;
 
 /// A force at a contact point (pressure and friction, N), remembered to start the next search from.
 #[derive(Clone, Copy, Debug)]
@@ -80,15 +83,21 @@ impl Resting {
         for lost in supports.iter().filter(|support| support.manifolds.is_empty()) {
             self.pairs.remove(&lost.pair);
         }
-        stop_closing(bodies, island, &supports);
+        stop_closing(bodies, island, &supports, law);
         let left = end - time;
         if left > 1e-6 * law.substep {
-            self.hold(bodies, island, &supports, left);
+            self.hold(bodies, island, &supports, (law, left));
         }
     }
 
     /// Finds the forces for the remaining time `left`, and lets them act.
-    fn hold(&mut self, bodies: &mut Bodies, island: &Island, supports: &[Support], left: f64) {
+    fn hold(
+        &mut self,
+        bodies: &mut Bodies,
+        island: &Island,
+        supports: &[Support],
+        (law, left): (RestLaw, f64),
+    ) {
         let mut movers = island.movers(bodies);
         for (mover, &row) in movers.iter_mut().zip(&island.rows) {
             let influence = &bodies.influences[row];
@@ -106,7 +115,7 @@ impl Resting {
             row.friction = friction - friction.dot(row.normal) * row.normal;
         }
         let mut only_rows: Vec<ContactRow> = rows.iter().map(|(_, row)| *row).collect();
-        solve(&mut movers, &mut only_rows, SWEEPS);
+        solve(&mut movers, &mut only_rows, effort(law, left));
         for ((mover, before), &row) in movers.iter().zip(&before).zip(&island.rows) {
             bodies.influences[row].acceleration += (mover.linear - before.linear) / left;
         }
@@ -235,6 +244,11 @@ impl Island {
     }
 }
 
+/// How far to solve for velocities that change within `time` seconds.
+fn effort(law: RestLaw, time: f64) -> Effort {
+    Effort { sweeps: SWEEPS, agreement: AGREEMENT * law.gravity.length().max(1e-3) * time }
+}
+
 fn support(bodies: &Bodies, pair: ColliderPair, law: RestLaw, (time, margin): (f64, f64)) -> Support {
     let mut manifolds = Vec::new();
     if let (Some(a), Some(b)) = (bodies.collider(pair.0), bodies.collider(pair.1)) {
@@ -244,11 +258,11 @@ fn support(bodies: &Bodies, pair: ColliderPair, law: RestLaw, (time, margin): (f
 }
 
 /// Stops whatever closes, by impulses with C_r = 0 and friction.
-fn stop_closing(bodies: &mut Bodies, island: &Island, supports: &[Support]) {
+fn stop_closing(bodies: &mut Bodies, island: &Island, supports: &[Support], law: RestLaw) {
     let mut movers = island.movers(bodies);
     let rows = island.contact_rows(bodies, supports, |_, _| 0.0);
     let mut rows: Vec<ContactRow> = rows.into_iter().map(|(_, row)| row).collect();
-    solve(&mut movers, &mut rows, SWEEPS);
+    solve(&mut movers, &mut rows, effort(law, law.substep));
     for row in &rows {
         let impulse = row.pressure * row.normal + row.friction;
         for (mover, arm, impulse) in [(row.a, row.arm_a, -impulse), (row.b, row.arm_b, impulse)] {
@@ -286,7 +300,7 @@ pub(crate) fn push_out(bodies: &mut Bodies, island: &Island, law: RestLaw, time:
         .into_iter()
         .map(|(_, row)| ContactRow { static_friction: 0.0, dynamic_friction: 0.0, ..row })
         .collect();
-    solve(&mut movers, &mut rows, PUSH_SWEEPS);
+    solve(&mut movers, &mut rows, Effort { sweeps: PUSH_SWEEPS, agreement: 0.1 * allowed });
     for (mover, &row) in movers.iter().zip(&island.rows) {
         let state = &mut bodies.states[row];
         state.position += mover.linear;
