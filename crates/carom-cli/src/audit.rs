@@ -88,7 +88,23 @@ fn instants(strikes: &[Strike]) -> Vec<Vec<&Strike>> {
     for group in &mut groups {
         group.sort_by_key(|strike| (strike.round, strike.impact));
     }
+    let alone = |group: Vec<_>| group.into_iter().map(|strike| vec![strike]).collect();
     groups
+        .into_iter()
+        .flat_map(|group| if is_continuous(&group) { vec![group] } else { alone(group) })
+        .collect()
+}
+
+/// Whether each body comes to each round as it left the one before. It does not where contacts that rest have pushed it in
+/// between; then each strike of the instant is judged alone.
+fn is_continuous(instant: &[&Strike]) -> bool {
+    let mut left: HashMap<BodyId, Velocity> = HashMap::new();
+    instant.iter().all(|strike| {
+        (0..2).filter(|&side| strike.parties[side].moves).all(|side| {
+            let before = left.insert(strike.ids[side], strike.after[side]);
+            before.is_none_or(|velocity| velocity == strike.before[side])
+        })
+    })
 }
 
 fn find(leader: &mut [usize], mut index: usize) -> usize {
