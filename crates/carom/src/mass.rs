@@ -26,7 +26,7 @@ impl MassProperties {
 
     /// A solid ball around the origin: `I = 2/5 m r²`.
     pub fn sphere(radius: f64, density: f64) -> Self {
-        let mass = density * 4.0 / 3.0 * PI * radius.powi(3);
+        let mass = density * 4.0 / 3.0 * PI * radius * radius * radius;
         let inertia = DMat3::from_diagonal(DVec3::splat(0.4 * mass * radius * radius));
         Self { mass, center: DVec3::ZERO, inertia }
     }
@@ -221,7 +221,7 @@ impl DiscStack {
         Self {
             volume: PI * height / 3.0 * (bb + bt + tt),
             first: PI * height * height / 12.0 * (bb + 2.0 * bt + 3.0 * tt),
-            second: PI * height.powi(3) / 30.0 * (bb + 3.0 * bt + 6.0 * tt),
+            second: PI * height * height * height / 30.0 * (bb + 3.0 * bt + 6.0 * tt),
             discs: PI * height / 20.0 * (bb * bb + bb * bt + bb * tt + bt * tt + tt * tt),
         }
     }
@@ -233,7 +233,7 @@ impl DiscStack {
         Self {
             volume: between(&|y| y * (rr - y * y / 3.0)),
             first: between(&|y| y * y * (rr / 2.0 - y * y / 4.0)),
-            second: between(&|y| y.powi(3) * (rr / 3.0 - y * y / 5.0)),
+            second: between(&|y| y * y * y * (rr / 3.0 - y * y / 5.0)),
             discs: 0.25 * between(&|y| y * (rr * rr - y * y * (2.0 / 3.0 * rr - y * y / 5.0))),
         }
     }
