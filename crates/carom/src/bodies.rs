@@ -73,7 +73,7 @@ impl BodyState {
 /// The row of everything that does not move.
 pub(crate) const WORLD_ROW: usize = 0;
 
-/// Why a body takes no part in the simulation.
+/// Whether a body takes part in the simulation, and if not, why.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Activity {
     /// It does take part.

@@ -44,7 +44,6 @@ pub(crate) fn step(world: &mut World, time: f64) {
     finish::publish(&mut world.bodies);
     world.report.contacts = finish::count_contacts(&world.bodies, &world.resting);
 
-    world.steps += 1;
     world.time = start + time;
     world.report.record(impacts, start);
 }

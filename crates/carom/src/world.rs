@@ -69,7 +69,6 @@ pub struct World {
     /// Bodies refused since the last step.
     refused: Vec<BodyId>,
     pub(crate) time: f64,
-    pub(crate) steps: u64,
 }
 
 impl World {
@@ -88,7 +87,6 @@ impl World {
             report: StepReport::default(),
             refused: Vec::new(),
             time: 0.0,
-            steps: 0,
         }
     }
 

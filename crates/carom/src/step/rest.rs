@@ -60,7 +60,7 @@ impl Resting {
         self.pairs.keys().copied()
     }
 
-    /// Forgets all pairs of which `keep` says so.
+    /// Forgets all pairs but those of which `keep` says so.
     pub fn retain(&mut self, mut keep: impl FnMut(ColliderPair) -> bool) {
         self.pairs.retain(|&pair, _| keep(pair));
     }
