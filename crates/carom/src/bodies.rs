@@ -140,6 +140,12 @@ pub(crate) struct Bodies {
     pub influences: Vec<Influence>,
     /// Time within the present step up to which each row has been advanced, s.
     pub clocks: Vec<f64>,
+    /// How far (m, rad) the body's path has led so far, at least; grows for ever.
+    pub ways: Vec<(f64, f64)>,
+    /// Reach of the body's smallest collider, m: what is small against it is small for the body.
+    pub grains: Vec<f64>,
+    /// Bounds of its speeds (m/s, rad/s) on its present path.
+    pub paces: Vec<(f64, f64)>,
     /// Force (N) and torque (N·m) that the user applies during the next step.
     pub forces: Vec<(DVec3, DVec3)>,
     /// The slot of each row.
@@ -157,6 +163,9 @@ impl Bodies {
             constants: vec![Constants::WORLD],
             influences: vec![Influence::default()],
             clocks: vec![0.0],
+            ways: vec![(0.0, 0.0)],
+            grains: vec![f64::INFINITY],
+            paces: vec![(0.0, 0.0)],
             forces: vec![(DVec3::ZERO, DVec3::ZERO)],
             slot_of_row: vec![u32::MAX],
             colliders: Vec::new(),
@@ -226,6 +235,12 @@ impl Bodies {
         self.constants.push(constants);
         self.influences.push(Influence::default());
         self.clocks.push(0.0);
+        self.ways.push((0.0, 0.0));
+        let reach = |collider: &Collider| {
+            collider.shape.reach(collider.pose.inverse_transform_point(mass.center))
+        };
+        self.grains.push(description.colliders.iter().map(reach).fold(f64::INFINITY, f64::min));
+        self.paces.push((0.0, 0.0));
         self.forces.push((DVec3::ZERO, DVec3::ZERO));
         self.slot_of_row.push(slot);
         self.states.len() - 1
@@ -259,7 +274,7 @@ impl Bodies {
         }
     }
 
-    /// Removes a body with its colliders; returns what it was.
+    /// Removes a body with its colliders; returns what it was. The body of the last row, if it is another one, gets its row.
     pub fn remove(&mut self, id: BodyId) -> Option<Record> {
         self.get(id)?;
         let slot = &mut self.slots[id.index()];
@@ -286,6 +301,9 @@ impl Bodies {
         self.constants.swap_remove(row);
         self.influences.swap_remove(row);
         self.clocks.swap_remove(row);
+        self.ways.swap_remove(row);
+        self.grains.swap_remove(row);
+        self.paces.swap_remove(row);
         self.forces.swap_remove(row);
         self.slot_of_row.swap_remove(row);
         let Some(&moved) = self.slot_of_row.get(row) else { return };
@@ -346,6 +364,14 @@ impl Bodies {
 
     pub fn collider(&self, key: u32) -> Option<&ColliderRow> {
         self.colliders.get(key as usize)?.as_ref()
+    }
+
+    /// How far (m, rad) the body's path has led by `time` within the step, at least: grows with time, and two times on the
+    /// same path differ by no less than how far any point has moved.
+    pub fn way(&self, row: usize, time: f64) -> (f64, f64) {
+        let (way, pace) = (self.ways[row], self.paces[row]);
+        let flown = time - self.clocks[row];
+        (way.0 + pace.0 * flown, way.1 + pace.1 * flown)
     }
 
     /// Where the centre of mass of a collider's body is now.

@@ -102,6 +102,23 @@ impl Shape {
         Mesh::new(vertices, triangles).map(|mesh| Shape::Mesh(Arc::new(mesh)))
     }
 
+    /// Radius (m) with which the surface is round at `point` about the y axis, where its outward normal is `outward`: 0 where it
+    /// is flat or has a corner. What rolls on such a surface touches at a point that does not turn with it.
+    pub(crate) fn roundness(&self, point: DVec3, outward: DVec3) -> f64 {
+        let across = DVec3::new(outward.x, 0.0, outward.z).length();
+        match *self {
+            Shape::Sphere { radius } | Shape::Capsule { radius, .. } => radius,
+            // Along the normal to the axis; the discs' faces and rims are not round.
+            Shape::Cylinder { .. } | Shape::TaperedCapsule { .. } if across > 0.3 => {
+                DVec3::new(point.x, 0.0, point.z).length() / across
+            }
+            Shape::TaperedCapsule { height, radius_bottom, radius_top } => {
+                if point.y > 0.5 * height { radius_top } else { radius_bottom }
+            }
+            _ => 0.0,
+        }
+    }
+
     /// Checks the lengths: finite, 1e-6 to 1e6 m; at most one radius of a tapered shape 0.
     ///
     /// # Errors

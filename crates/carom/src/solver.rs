@@ -1,3 +1,17 @@
 //! The solver of what rests.
+//!
+//! ```text
+//! lanes.rs     several numbers in step: the vocabulary of the kernels
+//! bundle.rs    contacts in the layout they are solved in
+//! contact.rs   the arithmetic: measure, begin, sweep
+//! prepare.rs   a manifold becomes a lane
+//! graph.rs     all contacts of a world: colours, islands, sweeps until they agree
+//! rows.rs      velocities and motions of the bodies, as the kernels read them
+//! ```
 
+pub(crate) mod bundle;
 pub(crate) mod contact;
+pub(crate) mod graph;
+pub(crate) mod lanes;
+pub(crate) mod prepare;
+pub(crate) mod rows;

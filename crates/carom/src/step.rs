@@ -2,47 +2,54 @@
 //!
 //! ```text
 //! begin      clocks to zero; gravity and forces become each body's influence
-//! find       which colliders could touch while their bodies fly          step/broad_phase.rs
-//! happen     touch after touch in time: impacts by the seed, the rest settles
-//!                 when do they touch?        impacts/time_of_impact.rs
-//!                 five steps at that instant impacts/strike.rs → impulse.rs
-//!                 what holds resting bodies  step/rest.rs → solver/contact.rs
-//! fly        everyone from the last touch to the end of the step         flight.rs
-//! finish     overlaps out, pairs that parted forgotten, states published, the report
+//! find       which colliders could touch while their bodies fly              step/broad_phase.rs, pairs.rs
+//! substep    four times, unless the settings say otherwise
+//!     hold       what rests: contacts found, impulses solved, paths given    step/rest.rs → solver/
+//!     happen     touch after touch in time                                   step/events.rs
+//!                    when do they touch?         impacts/time_of_impact.rs
+//!                    five steps at that instant  impacts/strike.rs → impulse.rs
+//! fly        everyone from the last touch to the end of the step             flight.rs
+//! finish     overlaps out, states published, the report                      step/finish.rs
 //! ```
 
 pub(crate) mod broad_phase;
 pub(crate) mod events;
 pub(crate) mod finish;
 pub(crate) mod motion;
+pub(crate) mod pairs;
 pub(crate) mod rest;
 
 use crate::impacts::time_of_impact::RestLaw;
 use crate::world::World;
 use events::Events;
+use rest::Span;
 
 /// Lets `time` seconds pass in the world.
 pub(crate) fn step(world: &mut World, time: f64) {
-    let law = RestLaw {
-        gravity: world.settings.gravity,
-        substep: time / f64::from(world.settings.substeps.max(1)),
-    };
+    let substeps = world.settings.substeps.max(1);
+    let law = RestLaw { gravity: world.settings.gravity, substep: time / f64::from(substeps), step: time };
     let start = world.time;
     world.report = Default::default();
 
-    motion::begin_flight(&mut world.bodies, law.gravity);
-    let pairs = world.broad_phase.find_pairs(&world.bodies, time);
-    world.resting.keep_only(&pairs);
-    let events = Events::new(&mut world.bodies, &world.broad_phase, &mut world.resting, law, time);
-    let impacts = events.run(&pairs);
+    motion::begin_flight(&mut world.bodies, law.gravity, time);
+    let found = world.broad_phase.find_pairs(&world.bodies, time);
+    let parted = world.pairs.update(&world.bodies, &found);
+    world.rest.begin_step(&mut world.bodies, &world.pairs, parted);
+
+    let nearby = (&mut world.pairs, &mut world.rest);
+    let mut events = Events::new(&mut world.bodies, &mut world.broad_phase, nearby, law);
+    for number in 0..substeps {
+        let at = |number: u32| time * f64::from(number) / f64::from(substeps);
+        events.substep(Span { from: at(number), until: at(number + 1) });
+    }
+    let impacts = events.finish();
     motion::finish_flight(&mut world.bodies, time);
 
-    finish::part(&world.bodies, &mut world.resting, law, time);
-    finish::push_out(&mut world.bodies, &world.resting, law, time);
+    world.rest.push_out(&mut world.bodies, law);
     finish::quarantine(world);
-    finish::sense(world, &pairs);
+    finish::sense(world);
     finish::publish(&mut world.bodies);
-    world.report.contacts = finish::count_contacts(&world.bodies, &world.resting);
+    world.report.contacts = finish::count_contacts(world, law);
 
     world.time = start + time;
     world.report.record(impacts, start);

@@ -8,7 +8,8 @@ use crate::mass::BodyMass;
 use crate::math::DVec3;
 use crate::report::StepReport;
 use crate::step::broad_phase::BroadPhase;
-use crate::step::rest::Resting;
+use crate::step::pairs::Pairs;
+use crate::step::rest::Rest;
 
 /// What holds for the whole world.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,7 +65,8 @@ pub struct World {
     pub(crate) settings: Settings,
     pub(crate) bodies: Bodies,
     pub(crate) broad_phase: BroadPhase,
-    pub(crate) resting: Resting,
+    pub(crate) pairs: Pairs,
+    pub(crate) rest: Rest,
     pub(crate) report: StepReport,
     /// Bodies refused since the last step.
     refused: Vec<BodyId>,
@@ -83,7 +85,8 @@ impl World {
             settings,
             bodies: Bodies::new(),
             broad_phase: BroadPhase::new(),
-            resting: Resting::default(),
+            pairs: Pairs::default(),
+            rest: Rest::new(),
             report: StepReport::default(),
             refused: Vec::new(),
             time: 0.0,
@@ -130,15 +133,25 @@ impl World {
     /// Removes a body; whether it was there.
     pub fn remove(&mut self, id: BodyId) -> bool {
         let Some(record) = self.bodies.remove(id) else { return false };
-        for key in record.colliders {
-            self.forget_collider(key);
-        }
+        self.forget(&record.colliders, record.row);
         true
+    }
+
+    /// Takes what is left of a body that has lost its colliders and its row.
+    pub(crate) fn forget(&mut self, colliders: &[u32], row: usize) {
+        colliders.iter().for_each(|&key| self.forget_collider(key));
+        if row != WORLD_ROW {
+            let last = self.bodies.states.len();
+            self.rest.remove_row(row, last);
+            self.pairs.rename_row(last, row);
+        }
     }
 
     pub(crate) fn forget_collider(&mut self, key: u32) {
         self.broad_phase.remove(key);
-        self.resting.retain(|(a, b)| a != key && b != key);
+        for pair in self.pairs.remove(key) {
+            self.rest.drop_contacts(&pair);
+        }
     }
 
     /// Where the body is and how it moves, if it is there.

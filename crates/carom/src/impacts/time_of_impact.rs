@@ -8,7 +8,6 @@ use crate::bodies::{Bodies, ColliderRow, WORLD_ROW};
 use crate::collide::{self, ContactPoint, Manifold};
 use crate::flight::fly_center;
 use crate::impulse::Velocity;
-use crate::material::Surface;
 use crate::math::{DVec3, Pose};
 use crate::shape::Shape;
 use crate::step::motion::{free_influence, state_at};
@@ -18,8 +17,9 @@ use crate::step::motion::{free_influence, state_at};
 pub(crate) struct RestLaw {
     /// Gravity, m/s².
     pub gravity: DVec3,
-    /// Length of a substep, s.
+    /// Length of a substep, and of the step, s.
     pub substep: f64,
+    pub step: f64,
 }
 
 impl RestLaw {
@@ -70,6 +70,11 @@ const OWN_ACCURACY: f64 = 1e-9;
 const PARRY_ACCURACY: f64 = 1e-6;
 
 impl<'a> Approach<'a> {
+    /// The pair of two colliders, by their keys.
+    pub fn of(bodies: &'a Bodies, (a, b): (u32, u32), law: RestLaw) -> Option<Self> {
+        Some(Self::new(bodies, bodies.collider(a)?, bodies.collider(b)?, law))
+    }
+
     pub fn new(bodies: &'a Bodies, a: &'a ColliderRow, b: &'a ColliderRow, law: RestLaw) -> Self {
         let origin = bodies.center_pose(if a.row == WORLD_ROW { b } else { a }).position;
         let own = |shape: &Shape| {
@@ -95,9 +100,9 @@ impl<'a> Approach<'a> {
         }
     }
 
-    /// What the two surfaces make together.
-    pub fn surface(&self) -> Surface {
-        Surface::between(&self.a.material, &self.b.material)
+    /// Separation up to which the surfaces count as touching, m.
+    pub fn tolerance(&self) -> f64 {
+        self.tolerance
     }
 
     fn pose_at(&self, collider: &ColliderRow, time: f64) -> Pose {
@@ -141,6 +146,38 @@ impl<'a> Approach<'a> {
         self.noise.max(0.5 * pressing * self.law.substep)
     }
 
+    /// Whether the two rest against each other at `time`: they are so near, and close or part so slowly, that what presses
+    /// them together would let them touch no faster than the rest threshold, or already does.
+    pub fn rests(&self, time: f64) -> bool {
+        let mut manifolds = Vec::new();
+        self.manifolds(time, self.law.contact_margin(), &mut manifolds);
+        let mut is_near = false;
+        for manifold in &manifolds {
+            let rest_speed = self.rest_speed(manifold.normal);
+            let pressing = 2.0 * rest_speed / self.law.substep;
+            for contact in manifold.points() {
+                let closing = -self.normal_velocity(contact.point, manifold.normal, time);
+                let gap = contact.separation.max(0.0);
+                let speed_at_touch = (closing * closing + 2.0 * pressing * gap).sqrt();
+                if closing > rest_speed || (gap > self.tolerance && speed_at_touch > rest_speed) {
+                    return false;
+                }
+                is_near |= closing >= -rest_speed;
+            }
+        }
+        is_near
+    }
+
+    fn normal_velocity(&self, point: DVec3, normal: DVec3, time: f64) -> f64 {
+        let velocity = |collider: &ColliderRow| {
+            let state = state_at(self.bodies, collider.row, time);
+            let angular = self.bodies.constants[collider.row].angular_velocity(&state);
+            let center = if collider.row == WORLD_ROW { point } else { state.position };
+            Velocity { linear: state.velocity, angular }.at(point - center)
+        };
+        (velocity(self.b) - velocity(self.a)).dot(normal)
+    }
+
     /// The touch that closes fastest at `time`, if any closes faster than rounding (or, for a pair that `rests`, than the
     /// rest threshold and its drift).
     fn touch(&self, time: f64, rests: bool) -> Option<Touch> {
@@ -155,12 +192,6 @@ impl<'a> Approach<'a> {
     fn fastest_touch(&self, time: f64, rests: bool, share_of_limit: f64) -> Option<Touch> {
         let mut manifolds = Vec::new();
         self.manifolds(time, self.tolerance, &mut manifolds);
-        let velocity = |collider: &ColliderRow, point: DVec3| {
-            let state = state_at(self.bodies, collider.row, time);
-            let angular = self.bodies.constants[collider.row].angular_velocity(&state);
-            let center = if collider.row == WORLD_ROW { point } else { state.position };
-            Velocity { linear: state.velocity, angular }.at(point - center)
-        };
         let mut fastest: Option<Touch> = None;
         for manifold in &manifolds {
             let rest_speed = self.rest_speed(manifold.normal);
@@ -168,7 +199,7 @@ impl<'a> Approach<'a> {
                 share_of_limit * if rests { rest_speed.max(self.law.drift_speed()) } else { self.noise };
             for contact in manifold.points() {
                 let point = contact.point;
-                let closing_speed = (velocity(self.b, point) - velocity(self.a, point)).dot(manifold.normal);
+                let closing_speed = self.normal_velocity(point, manifold.normal, time);
                 if closing_speed < fastest.map_or(-limit, |touch| touch.closing_speed) {
                     let normal = manifold.normal;
                     fastest = Some(Touch { point, normal, contact: *contact, closing_speed, rest_speed });

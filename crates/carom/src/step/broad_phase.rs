@@ -6,6 +6,7 @@
 
 use crate::bodies::{Bodies, ColliderRow, WORLD_ROW};
 use crate::flight::fly_center;
+use crate::step::events::CLAIM;
 use crate::math::{DVec3, Pose};
 use crate::shape::Shape;
 use parry3d_f64::bounding_volume::Aabb;
@@ -71,6 +72,8 @@ pub(crate) struct BroadPhase {
     workspace: BvhWorkspace,
     planes: Vec<u32>,
     moving_keys: Vec<u32>,
+    /// The boxes that bodies have been given within the present step, by collider.
+    rerouted: Vec<(u32, Bounds)>,
 }
 
 /// Margin of a moving collider's box, m per metre of its reach.
@@ -84,6 +87,7 @@ impl BroadPhase {
             workspace: BvhWorkspace::default(),
             planes: Vec::new(),
             moving_keys: Vec::new(),
+            rerouted: Vec::new(),
         }
     }
 
@@ -111,9 +115,10 @@ impl BroadPhase {
 
     /// All pairs of colliders that could touch in the next `time` seconds and are allowed to, in order.
     pub fn find_pairs(&mut self, bodies: &Bodies, time: f64) -> Vec<ColliderPair> {
+        self.rerouted.clear();
         for &key in &self.moving_keys {
             let Some(collider) = bodies.collider(key) else { continue };
-            let bounds = swept_bounds(bodies, collider, time).aabb();
+            let bounds = swept_bounds(bodies, collider, time).grown(CLAIM * collider.reach).aabb();
             let margin = MARGIN * collider.reach;
             self.moving.insert_or_update_partially(bounds, key, margin);
         }
@@ -126,14 +131,34 @@ impl BroadPhase {
         });
         for &key in &self.moving_keys {
             let Some(collider) = bodies.collider(key) else { continue };
-            self.pairs_with_fixed(bodies, key, &swept_bounds(bodies, collider, time), &mut pairs);
+            let bounds = swept_bounds(bodies, collider, time).grown(CLAIM * collider.reach);
+            self.pairs_with_fixed(bodies, key, &bounds, &mut pairs);
         }
-        pairs.sort_unstable_by_key(|&pair| order(bodies, pair));
+        pairs.sort_unstable();
         pairs
     }
 
-    /// The pairs of one moving collider whose box has become `bounds` within a step.
-    pub fn pairs_of(&self, bodies: &Bodies, key: u32, bounds: &Bounds, pairs: &mut Vec<ColliderPair>) {
+    /// Gives a moving collider another box within a step, and finds its pairs there.
+    pub fn move_within_step(
+        &mut self,
+        bodies: &Bodies,
+        key: u32,
+        bounds: &Bounds,
+        pairs: &mut Vec<ColliderPair>,
+    ) {
+        let reach = bodies.collider(key).map_or(0.0, |collider| collider.reach);
+        let bounds = bounds.grown(CLAIM * reach);
+        self.pairs_of(bodies, key, &bounds, pairs);
+        self.rerouted.retain(|&(other, _)| other != key);
+        for &(other, other_bounds) in &self.rerouted {
+            if other_bounds.intersects(&bounds) {
+                push_pair(bodies, key, other, pairs);
+            }
+        }
+        self.rerouted.push((key, bounds));
+    }
+
+    fn pairs_of(&self, bodies: &Bodies, key: u32, bounds: &Bounds, pairs: &mut Vec<ColliderPair>) {
         let query = bounds.aabb();
         for other in self.moving.intersect_aabb(&query) {
             push_pair(bodies, key, other, pairs);
@@ -164,7 +189,7 @@ fn below_plane(bodies: &Bodies, plane: u32, bounds: &Bounds) -> bool {
 }
 
 /// Appends the pair, the collider of the lower slot first, if the two can have anything to do with each other.
-pub(crate) fn push_pair(bodies: &Bodies, a: u32, b: u32, pairs: &mut Vec<ColliderPair>) {
+fn push_pair(bodies: &Bodies, a: u32, b: u32, pairs: &mut Vec<ColliderPair>) {
     let (Some(first), Some(second)) = (bodies.collider(a), bodies.collider(b)) else { return };
     if may_touch(bodies, first, second) {
         pairs.push(if first.slot < second.slot { (a, b) } else { (b, a) });
@@ -179,7 +204,7 @@ fn may_touch(bodies: &Bodies, a: &ColliderRow, b: &ColliderRow) -> bool {
     a.slot != b.slot && meet && a.filter.allows(&b.filter)
 }
 
-/// The order in which pairs are handled: by bodies, then by their colliders.
+/// The order in which touches of one instant are handled: by bodies, then by their colliders.
 pub(crate) fn order(bodies: &Bodies, (a, b): ColliderPair) -> (u32, u32, u32, u32) {
     match (bodies.collider(a), bodies.collider(b)) {
         (Some(a), Some(b)) => (a.slot, b.slot, a.index, b.index),

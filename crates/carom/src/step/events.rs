@@ -3,19 +3,25 @@
 //! Every pair of colliders that could touch is asked when it will; the earliest touch is carried out at its instant,
 //! which sends both bodies onto new paths and makes their pairs be asked again. What touches more slowly than the rest
 //! threshold is handed to [`rest`](super::rest). Bodies keep clocks of their own: only those that a touch concerns are
-//! advanced to it.
+//! advanced to it. What flies freely has one path for the whole step; what contacts hold gets a new one in each substep.
 //!
-//! Order: by time, touches before settling, then by bodies and colliders; so the same scene gives the same bits.
+//! Who owns a touch: a pair that rests belongs to the contacts. It comes back here only where one of its points is struck:
+//! where it bounces and a point closes faster than the rest threshold, or where a collision drives it into its neighbour
+//! further than a contact can be left to deal with.
+//!
+//! Order: by time, then by bodies and colliders; so the same scene gives the same bits.
 
 use crate::bodies::{Bodies, WORLD_ROW};
 use crate::impacts::strike::strike;
 use crate::impacts::time_of_impact::{Approach, RestLaw, Touch};
+use crate::math::DVec3;
 use crate::report::Impact;
-use crate::step::broad_phase::{Bounds, BroadPhase, ColliderPair, order, swept_bounds};
-use crate::step::motion::{advance, free_influence};
-use crate::step::rest::{Island, Resting};
+use crate::step::broad_phase::{BroadPhase, order, swept_bounds};
+use crate::step::motion::{advance, free_influence, set_pace};
+use crate::step::pairs::Pairs;
+use crate::step::rest::{Rest, Span};
 use std::cmp::{Ordering, Reverse};
-use std::collections::{BTreeSet, BinaryHeap};
+use std::collections::BinaryHeap;
 
 /// So many impacts of one pair in one step are taken one by one. If it is then down to this fraction of its fastest, the
 /// pair is a ball that rattles itself to rest, and rests.
@@ -25,32 +31,21 @@ const RATTLE_SPEED: f64 = 0.01;
 /// So many touches of one body in one step are taken one by one; a body with more is wedged, and its touches rest.
 const WEDGED_TOUCHES: u32 = 1024;
 
-/// Something that will happen at an instant of the step.
+/// A pair will touch at an instant of the step, unless its paths have changed since (then the stamps differ).
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Event {
     time: f64,
-    kind: Kind,
     key: (u32, u32, u32, u32),
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Kind {
-    /// The pair touches, unless its paths have changed since (then the stamps differ).
-    Touch { pair: usize, stamp: u32 },
-    /// The body of this row, and what it rests on, settle.
-    Settle { row: usize },
+    pair: usize,
+    stamp: u32,
 }
 
 impl Eq for Event {}
 
 impl Ord for Event {
     fn cmp(&self, other: &Self) -> Ordering {
-        let rank = |kind: &Kind| matches!(kind, Kind::Settle { .. });
-        self.time
-            .total_cmp(&other.time)
-            .then(rank(&self.kind).cmp(&rank(&other.kind)))
-            .then(self.key.cmp(&other.key))
-            .then(self.kind.cmp(&other.kind))
+        let rank = |event: &Event| (event.key, event.pair, event.stamp);
+        self.time.total_cmp(&other.time).then(rank(self).cmp(&rank(other)))
     }
 }
 
@@ -60,284 +55,219 @@ impl PartialOrd for Event {
     }
 }
 
-/// A pair of colliders that is watched during this step.
-struct Watched {
-    colliders: ColliderPair,
-    rows: [usize; 2],
-    stamp: u32,
-    hits: u32,
-    fastest: f64,
-    /// How long to look away after a touch that vanished under a closer look, as a share of the step.
-    patience: f64,
-    /// When it was last handed over to settle.
-    settled_at: Option<f64>,
+/// Where a body was to be at the end of the step when its neighbours were last looked for.
+#[derive(Clone, Copy, Debug)]
+struct Claim {
+    end: DVec3,
+    /// rad/s
+    spin: f64,
 }
 
 /// The touches of one step.
 pub(crate) struct Events<'a> {
     bodies: &'a mut Bodies,
-    broad_phase: &'a BroadPhase,
-    resting: &'a mut Resting,
+    broad_phase: &'a mut BroadPhase,
+    pairs: &'a mut Pairs,
+    rest: &'a mut Rest,
     law: RestLaw,
-    end: f64,
     queue: BinaryHeap<Reverse<Event>>,
-    pairs: Vec<Watched>,
-    /// The watched pairs of each row.
-    pairs_of_row: Vec<Vec<usize>>,
-    /// The boxes that bodies have been given within this step, by collider.
-    rerouted: Vec<(u32, Bounds)>,
+    claims: Vec<Claim>,
     touches_of_row: Vec<u32>,
-    unsettled: BTreeSet<usize>,
     impacts: Vec<Impact>,
 }
 
 impl<'a> Events<'a> {
-    /// Watches `pairs` until `end` seconds into the step.
+    /// Gets ready for a step in which `pairs` are near each other.
     pub fn new(
         bodies: &'a mut Bodies,
-        broad_phase: &'a BroadPhase,
-        resting: &'a mut Resting,
+        broad_phase: &'a mut BroadPhase,
+        (pairs, rest): (&'a mut Pairs, &'a mut Rest),
         law: RestLaw,
-        end: f64,
     ) -> Self {
         let rows = bodies.states.len();
+        let claims = (0..rows).map(|row| claim(bodies, row, law.step)).collect();
         Self {
             bodies,
             broad_phase,
-            resting,
+            pairs,
+            rest,
             law,
-            end,
             queue: BinaryHeap::new(),
-            pairs: Vec::new(),
-            pairs_of_row: vec![Vec::new(); rows],
-            rerouted: Vec::new(),
+            claims,
             touches_of_row: vec![0; rows],
-            unsettled: BTreeSet::new(),
             impacts: Vec::new(),
         }
     }
 
-    /// Carries out all touches of the step, in time; the impacts, each with its time within the step.
-    pub fn run(mut self, pairs: &[ColliderPair]) -> Vec<Impact> {
-        for &pair in pairs {
-            self.watch(pair);
-        }
-        let resting: Vec<ColliderPair> = self.resting.iter().collect();
-        for (a, b) in resting {
-            for key in [a, b] {
-                if let Some(row) = self.bodies.collider(key).map(|collider| collider.row) {
-                    self.unsettle(row, 0.0);
-                }
+    /// Lets a substep pass: contacts hold what rests, then touch comes after touch.
+    pub fn substep(&mut self, span: Span) {
+        self.rest.adopt(self.bodies, self.pairs, self.law, span);
+        for row in self.rest.hold(self.bodies, self.pairs, self.law, span) {
+            self.claim_anew(row, span.from);
+            for number in 0..self.pairs.count_of_row(row) {
+                let pair = self.pairs.of_row(row, number);
+                self.pairs[pair].now.asked_until = span.from;
             }
         }
-        for pair in 0..self.pairs.len() {
-            self.ask(pair, 0.0);
+        let mut index = 0;
+        while index < self.pairs.len() {
+            let pair = &self.pairs[index];
+            let is_quiet = pair.rests && pair.surface.restitution == 0.0;
+            if pair.now.asked_until < span.until && !pair.sensor && !is_quiet {
+                self.ask(index, span);
+            }
+            index += 1;
         }
-        while let Some(Reverse(event)) = self.queue.pop() {
-            match event.kind {
-                Kind::Touch { pair, stamp } if self.pairs[pair].stamp == stamp => {
-                    self.touch(pair, event.time);
-                }
-                Kind::Settle { row } if self.unsettled.contains(&row) => self.settle(row, event.time),
-                _ => {}
+        while let Some(Reverse(event)) = self.queue.peek().copied() {
+            if event.time > span.until {
+                break;
+            }
+            self.queue.pop();
+            if self.pairs[event.pair].now.stamp == event.stamp {
+                self.touch(event.pair, Span { from: event.time, ..span });
             }
         }
+    }
+
+    /// All that has happened, each impact with its time within the step.
+    pub fn finish(self) -> Vec<Impact> {
         self.impacts
     }
 
-    fn watch(&mut self, colliders: ColliderPair) -> Option<usize> {
-        let (a, b) = (self.bodies.collider(colliders.0)?, self.bodies.collider(colliders.1)?);
-        if a.sensor || b.sensor {
-            return None;
-        }
-        let rows = [a.row, b.row];
-        let pair = self.pairs.len();
-        self.pairs.push(Watched {
-            colliders,
-            rows,
-            stamp: 0,
-            hits: 0,
-            fastest: 0.0,
-            patience: 1e-9,
-            settled_at: None,
-        });
-        for row in rows.into_iter().filter(|&row| row != WORLD_ROW) {
-            self.pairs_of_row[row].push(pair);
-        }
-        Some(pair)
-    }
-
-    /// Asks a pair when it will touch, from `time` on.
-    fn ask(&mut self, pair: usize, time: f64) {
-        let watched = &mut self.pairs[pair];
-        watched.stamp += 1;
-        let (colliders, stamp) = (watched.colliders, watched.stamp);
-        let rests = self.resting.contains(colliders);
-        if let Some(instant) = self.approach(colliders).and_then(|it| it.next_touch(time, self.end, rests)) {
-            let key = order(self.bodies, colliders);
-            self.queue.push(Reverse(Event { time: instant, kind: Kind::Touch { pair, stamp }, key }));
+    /// Asks a pair when it will touch, from the start of `span` on.
+    fn ask(&mut self, index: usize, span: Span) {
+        let pair = &self.pairs[index];
+        let is_held = pair.rows.into_iter().any(|row| self.rest.is_held(row));
+        let until = if is_held { span.until } else { self.law.step };
+        let pair = &mut self.pairs[index];
+        pair.now.stamp += 1;
+        pair.now.asked_until = until;
+        let pair = &self.pairs[index];
+        let Some(approach) = Approach::of(self.bodies, pair.colliders, self.law) else { return };
+        let instant = if pair.rests {
+            if !self.rest.is_driven(self.bodies, pair, self.law, span) {
+                return;
+            }
+            approach.next_touch(span.from, until, true)
+        } else {
+            if pair.least_separation(self.bodies, until) > approach.tolerance() {
+                return;
+            }
+            let separation = approach.separation(span.from);
+            let instant = approach.next_touch(span.from, until, false);
+            self.pairs[index].measured(self.bodies, separation, span.from);
+            instant
+        };
+        if let Some(time) = instant {
+            let pair = &self.pairs[index];
+            let key = order(self.bodies, pair.colliders);
+            self.queue.push(Reverse(Event { time, key, pair: index, stamp: pair.now.stamp }));
         }
     }
 
-    fn approach(&self, (a, b): ColliderPair) -> Option<Approach<'_>> {
-        Some(Approach::new(self.bodies, self.bodies.collider(a)?, self.bodies.collider(b)?, self.law))
-    }
-
-    fn touch(&mut self, pair: usize, time: f64) {
-        let (colliders, rows) = (self.pairs[pair].colliders, self.pairs[pair].rows);
+    fn touch(&mut self, index: usize, span: Span) {
+        let (colliders, rows) = (self.pairs[index].colliders, self.pairs[index].rows);
+        let time = span.from;
         for row in rows {
-            self.rouse(row, time);
+            self.rouse(row, span);
             advance(self.bodies, row, time);
             self.touches_of_row[row] += u32::from(row != WORLD_ROW);
         }
-        let rests = self.resting.contains(colliders);
-        let Some(approach) = self.approach(colliders) else { return };
+        let rests = self.pairs[index].rests;
+        let Some(approach) = Approach::of(self.bodies, colliders, self.law) else { return };
         let Some(touch) = approach.confirmed_touch(time, rests) else {
-            let later = self.later(pair, time);
-            return self.ask(pair, later);
+            // It vanished under a closer look: look again a moment later, the next time twice that.
+            let now = &mut self.pairs[index].now;
+            now.patience *= 2.0;
+            let later = time + now.patience * self.law.step;
+            if later < span.until {
+                self.ask(index, Span { from: later, ..span });
+            }
+            return;
         };
-        let surface = approach.surface();
-        if !self.comes_to_rest(pair, &touch) {
-            self.pairs[pair].hits += 1;
+        if !self.comes_to_rest(index, &touch) {
+            self.pairs[index].now.hits += 1;
+            let surface = self.pairs[index].surface;
             self.impacts.extend(strike(self.bodies, colliders, &touch, &surface, time));
             for row in rows {
-                self.reroute(row, time);
+                self.reroute(row, span);
             }
-        } else if self.pairs[pair].settled_at == Some(time) {
-            // Nothing can be done about this touch: both sides are held by what nothing moves.
-            let later = self.later(pair, time);
-            self.ask(pair, later);
-        } else {
-            self.pairs[pair].settled_at = Some(time);
-            self.resting.insert(colliders);
-            for row in rows {
-                self.unsettle(row, time);
-            }
+        } else if !rests {
+            self.rest.take(self.bodies, self.pairs, index, (self.law, span));
         }
     }
 
-    /// When to look again for a touch that vanished under a closer look: a moment later, the next time twice that.
-    fn later(&mut self, pair: usize, time: f64) -> f64 {
-        let watched = &mut self.pairs[pair];
-        watched.patience *= 2.0;
-        time + watched.patience * self.end
-    }
-
     /// Whether a touch is to be a contact, not an impact.
-    fn comes_to_rest(&mut self, pair: usize, touch: &Touch) -> bool {
+    fn comes_to_rest(&mut self, index: usize, touch: &Touch) -> bool {
         let closing = -touch.closing_speed;
-        let watched = &mut self.pairs[pair];
-        watched.fastest = watched.fastest.max(closing);
-        let rattles = watched.hits >= RATTLE_HITS && closing < RATTLE_SPEED * watched.fastest;
-        let wedged = watched.rows.iter().any(|&row| self.touches_of_row[row] >= WEDGED_TOUCHES);
+        let pair = &mut self.pairs[index];
+        pair.now.fastest = pair.now.fastest.max(closing);
+        let rattles = pair.now.hits >= RATTLE_HITS && closing < RATTLE_SPEED * pair.now.fastest;
+        let wedged = pair.rows.iter().any(|&row| self.touches_of_row[row] >= WEDGED_TOUCHES);
         closing <= touch.rest_speed || rattles || wedged
     }
 
     /// Wakes the body of a row if it sleeps, and gives gravity back to it.
-    fn rouse(&mut self, row: usize, time: f64) {
+    fn rouse(&mut self, row: usize, span: Span) {
         if self.bodies.wake(row) {
-            self.bodies.clocks[row] = time;
+            self.bodies.ways[row] = self.bodies.way(row, span.from);
+            self.bodies.clocks[row] = span.from;
             self.bodies.influences[row] = free_influence(self.bodies, row, self.law.gravity);
+            set_pace(self.bodies, row, self.law.step);
         }
     }
 
-    /// A body has got a new path at `time`: find whom it could touch now, and ask all its pairs again.
-    fn reroute(&mut self, row: usize, time: f64) {
+    /// A body has got a new path at the start of `span`: find whom it could touch now, and ask all its pairs again.
+    fn reroute(&mut self, row: usize, span: Span) {
         if row == WORLD_ROW {
             return;
         }
-        if self.pairs_of_row[row].iter().any(|&pair| self.resting.contains(self.pairs[pair].colliders)) {
-            self.unsettle(row, time);
-        }
-        self.find_new_pairs(row, time);
-        for index in 0..self.pairs_of_row[row].len() {
-            self.ask(self.pairs_of_row[row][index], time);
+        let until = if self.rest.is_held(row) { span.until } else { self.law.step };
+        set_pace(self.bodies, row, until);
+        self.claim_anew(row, span.from);
+        for number in 0..self.pairs.count_of_row(row) {
+            let index = self.pairs.of_row(row, number);
+            if !self.pairs[index].sensor {
+                self.ask(index, span);
+            }
         }
     }
 
-    fn find_new_pairs(&mut self, row: usize, time: f64) {
+    /// Looks for new neighbours of a body if its path has left what was searched.
+    fn claim_anew(&mut self, row: usize, time: f64) {
+        let claim = claim(self.bodies, row, self.law.step);
+        let (old, grain) = (self.claims[row], self.bodies.grains[row]);
+        let slack = CLAIM * grain;
+        let turned = (claim.spin - old.spin).max(0.0) * (self.law.step - time) * grain;
+        if claim.end.distance(old.end) + turned <= slack {
+            return;
+        }
+        self.claims[row] = claim;
         let slot = self.bodies.slot_of_row[row];
         let keys = self.bodies.record(slot).map_or(Vec::new(), |record| record.colliders.clone());
         for key in keys {
             let Some(collider) = self.bodies.collider(key) else { continue };
-            let bounds = swept_bounds(self.bodies, collider, self.end - time);
+            let bounds = swept_bounds(self.bodies, collider, self.law.step - time);
             let mut found = Vec::new();
-            self.broad_phase.pairs_of(self.bodies, key, &bounds, &mut found);
-            for &(other, ref other_bounds) in &self.rerouted {
-                if other_bounds.intersects(&bounds) {
-                    crate::step::broad_phase::push_pair(self.bodies, key, other, &mut found);
-                }
-            }
-            self.rerouted.retain(|&(other, _)| other != key);
-            self.rerouted.push((key, bounds));
-            found.sort_unstable_by_key(|&pair| order(self.bodies, pair));
+            self.broad_phase.move_within_step(self.bodies, key, &bounds, &mut found);
+            found.sort_unstable();
             found.dedup();
-            for pair in found {
-                let known = |&index: &usize| self.pairs[index].colliders == pair;
-                if !self.pairs_of_row[row].iter().any(known)
-                    && let Some(new) = self.watch(pair)
-                {
-                    let [a, b] = self.pairs[new].rows;
-                    self.ask(new, time.max(self.bodies.clocks[a]).max(self.bodies.clocks[b]));
+            for colliders in found {
+                if let Some(new) = self.pairs.add(self.bodies, colliders) {
+                    // To be asked by whoever asks all pairs of this body.
+                    self.pairs[new].now.asked_until = time;
                 }
             }
         }
     }
+}
 
-    fn unsettle(&mut self, row: usize, time: f64) {
-        if row != WORLD_ROW && self.unsettled.insert(row) {
-            let key = (self.bodies.slot_of_row[row], 0, 0, 0);
-            self.queue.push(Reverse(Event { time, kind: Kind::Settle { row }, key }));
-        }
-    }
+/// How far a body may stray from the path that its neighbours were looked for along, as a share of its smallest reach.
+pub(crate) const CLAIM: f64 = 0.05;
 
-    fn settle(&mut self, row: usize, time: f64) {
-        let island = self.island_of(row);
-        for row in &island.rows {
-            self.unsettled.remove(row);
-        }
-        self.unsettled.remove(&row);
-        if island.pairs.is_empty() {
-            return;
-        }
-        for &row in &island.rows {
-            self.rouse(row, time);
-        }
-        self.resting.settle(self.bodies, &island, self.law, (time, self.end));
-        for &row in &island.rows {
-            if self.bodies.constants[row].is_movable() {
-                self.find_new_pairs(row, time);
-            }
-        }
-        let mut concerned: Vec<usize> =
-            island.rows.iter().flat_map(|&row| self.pairs_of_row[row].iter().copied()).collect();
-        concerned.sort_unstable();
-        concerned.dedup();
-        for pair in concerned {
-            self.ask(pair, time);
-        }
-    }
-
-    /// All that rests on each other around a body; bodies that nothing can move end it.
-    fn island_of(&self, row: usize) -> Island {
-        let mut rows = BTreeSet::from([row]);
-        let mut pairs = BTreeSet::new();
-        let mut open = vec![row];
-        while let Some(row) = open.pop() {
-            if !self.bodies.constants[row].is_movable() {
-                continue;
-            }
-            for &pair in &self.pairs_of_row[row] {
-                let watched = &self.pairs[pair];
-                if self.resting.contains(watched.colliders) && pairs.insert(watched.colliders) {
-                    for row in watched.rows.into_iter().filter(|&row| row != WORLD_ROW) {
-                        if rows.insert(row) {
-                            open.push(row);
-                        }
-                    }
-                }
-            }
-        }
-        Island { rows: rows.into_iter().collect(), pairs: pairs.into_iter().collect() }
-    }
+fn claim(bodies: &Bodies, row: usize, end: f64) -> Claim {
+    let (state, influence) = (&bodies.states[row], &bodies.influences[row]);
+    let left = end - bodies.clocks[row];
+    let end = state.position + state.velocity * left + influence.acceleration * (0.5 * left * left);
+    Claim { end, spin: bodies.paces[row].1 }
 }

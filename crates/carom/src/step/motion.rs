@@ -4,13 +4,23 @@ use crate::bodies::{Bodies, WORLD_ROW};
 use crate::flight::{Influence, RigidState, fly};
 use crate::math::DVec3;
 
-/// Sets all clocks to the start of a step, and what gravity and the user's forces do during it.
-pub(crate) fn begin_flight(bodies: &mut Bodies, gravity: DVec3) {
+/// Sets all clocks to the start of a step of `time` seconds, and what gravity and the user's forces do during it.
+pub(crate) fn begin_flight(bodies: &mut Bodies, gravity: DVec3, time: f64) {
     for row in bodies.rows() {
         bodies.clocks[row] = 0.0;
         bodies.influences[row] =
             if bodies.is_asleep(row) { Influence::default() } else { free_influence(bodies, row, gravity) };
+        set_pace(bodies, row, time);
     }
+}
+
+/// Bounds how fast the points of a body move until `end`; to be called whenever its path has changed.
+pub(crate) fn set_pace(bodies: &mut Bodies, row: usize, end: f64) {
+    let (state, constants, influence) =
+        (&bodies.states[row], &bodies.constants[row], &bodies.influences[row]);
+    let left = end - bodies.clocks[row];
+    let linear = state.velocity.length() + influence.acceleration.length() * left;
+    bodies.paces[row] = (linear, constants.spin_limit(state, influence, left));
 }
 
 /// Gravity and the user's forces on one body.
@@ -25,6 +35,7 @@ pub(crate) fn advance(bodies: &mut Bodies, row: usize, time: f64) {
     if row == WORLD_ROW || bodies.clocks[row] >= time {
         return;
     }
+    bodies.ways[row] = bodies.way(row, time);
     bodies.states[row] = state_at(bodies, row, time);
     bodies.clocks[row] = time;
 }

@@ -1,309 +1,429 @@
-//! What rests: pairs that touch without bouncing, and the forces that hold them.
+//! What rests: pairs that touch without bouncing, and what holds them.
 //!
-//! A pair that touches more slowly than the rest threshold is handed over from the impacts to this file, and stays here
-//! until it parts. Bodies that such pairs connect settle together, as often in a step as something happens to one
-//! of them, each time for what is left of the step:
+//! A pair that touches more slowly than the rest threshold is handed over from the impacts to this file, and stays here until it
+//! parts. In each substep
 //!
-//! 1. whatever still closes is stopped, by impulses with C_r = 0;
-//! 2. the forces are found which let no point close until the end of the step, and which then act evenly, like gravity
-//!    does, while the bodies fly on (Baraff 1989).
+//! 1. pairs that have come to rest against each other get contacts;
+//! 2. bodies that have moved since their contacts were last looked at have them renewed; impulses are kept, by features;
+//! 3. impulses are found with which no point closes further than its gap: those of the substep before act again, and
+//!    sweeps over all contacts change them until velocities agree ([`graph`](crate::solver::graph));
+//! 4. each body gets its path for the substep.
 //!
-//! So a body at rest moves along the same exact path as a flying one, and an impact finds it where it truly is.
+//! Contacts are hard: they need no overlap to press, so that nothing sinks under a load.
 
 use crate::bodies::{Bodies, WORLD_ROW};
 use crate::collide::Manifold;
-use crate::impacts::strike::push;
+use crate::flight::Influence;
 use crate::impacts::time_of_impact::{Approach, RestLaw};
 use crate::math::{DMat3, DVec3, rotation_from_vector};
-use crate::report::Feature;
-use crate::solver::contact::{ContactRow, Effort, Mover, solve};
-use crate::step::broad_phase::ColliderPair;
-use crate::step::motion::{advance, free_influence};
-use std::collections::{BTreeMap, BTreeSet};
+use crate::solver::bundle::field;
+use crate::solver::graph::{Effort, Graph};
+use crate::solver::lanes::Row;
+use crate::solver::prepare::{Remembered, Side, Terms, lane};
+use crate::solver::rows::Rows;
+use crate::step::motion::{advance, free_influence, set_pace};
+use crate::step::pairs::{Pair, Pairs, Support};
 
-/// Sweeps of the solver each time that bodies settle.
-const SWEEPS: usize = 2000;
+/// Motion of a body, as a share of its smallest collider's reach or in radians, after which its contacts are renewed: at
+/// the start of a step, and within one.
+const DRIFT: f64 = 1e-3;
+const DRIFT_WITHIN: f64 = 2e-2;
 
-/// Velocities of resting points agree when they differ by no more than this share of what gravity does meanwhile.
-const AGREEMENT: f64 = 1e-9;
+/// Velocities agree when a sweep changes them by no more than this share of what gravity does in a substep.
+const AGREEMENT: f64 = 1e-3;
 
-/// A force at a contact point (pressure and friction, N), remembered to start the next search from.
+/// Sweeps that every contact gets in a substep, and contacts times sweeps that an island may take.
+const SWEEPS: u32 = 2;
+const BUDGET: u32 = 40_000;
+
+/// Share of an overlap that is pushed out at the end of a step, and of the contact margin that is left.
+const PUSH_OUT: f32 = 0.5;
+const LEFT_IN: f64 = 0.1;
+
+/// Contacts, and the bodies that they hold.
+pub(crate) struct Rest {
+    graph: Graph,
+    rows: Rows,
+    /// The pairs that rest, in the order in which they came to.
+    resting: Vec<usize>,
+}
+
+/// A stretch of a step.
 #[derive(Clone, Copy, Debug)]
-struct Held {
-    features: (Feature, Feature),
-    pressure: f64,
-    friction: DVec3,
+pub(crate) struct Span {
+    pub from: f64,
+    pub until: f64,
 }
 
-/// The pairs that rest, with the forces that hold them.
-#[derive(Default)]
-pub(crate) struct Resting {
-    pairs: BTreeMap<ColliderPair, Vec<Held>>,
-}
-
-/// A pair's points, ready for the solver.
-struct Support {
-    pair: ColliderPair,
-    manifolds: Vec<Manifold>,
-}
-
-impl Resting {
-    pub fn contains(&self, pair: ColliderPair) -> bool {
-        self.pairs.contains_key(&pair)
+impl Rest {
+    pub fn new() -> Self {
+        Self { graph: Graph::default(), rows: Rows::new(), resting: Vec::new() }
     }
 
-    pub fn insert(&mut self, pair: ColliderPair) {
-        self.pairs.entry(pair).or_default();
-    }
-
-    pub fn iter(&self) -> impl Iterator<Item = ColliderPair> {
-        self.pairs.keys().copied()
-    }
-
-    /// Forgets all pairs but those of which `keep` says so.
-    pub fn retain(&mut self, mut keep: impl FnMut(ColliderPair) -> bool) {
-        self.pairs.retain(|&pair, _| keep(pair));
-    }
-
-    /// Forgets all pairs but those among `pairs`.
-    pub fn keep_only(&mut self, pairs: &[ColliderPair]) {
-        let near: BTreeSet<ColliderPair> = pairs.iter().copied().collect();
-        self.retain(|pair| near.contains(&pair));
-    }
-
-    /// Lets the bodies of an island settle at `time` until the step's end.
-    pub fn settle(&mut self, bodies: &mut Bodies, island: &Island, law: RestLaw, (time, end): (f64, f64)) {
-        for &row in &island.rows {
-            advance(bodies, row, time);
-            bodies.influences[row] = free_influence(bodies, row, law.gravity);
-        }
-        let margin = law.contact_margin();
-        let supports: Vec<Support> =
-            island.pairs.iter().map(|&pair| support(bodies, pair, law, (time, margin))).collect();
-        for lost in supports.iter().filter(|support| support.manifolds.is_empty()) {
-            self.pairs.remove(&lost.pair);
-        }
-        stop_closing(bodies, island, &supports, law);
-        let left = end - time;
-        if left > 1e-6 * law.substep {
-            self.hold(bodies, island, &supports, (law, left));
-        }
-    }
-
-    /// Finds the forces for the remaining time `left`, and lets them act.
-    fn hold(
-        &mut self,
-        bodies: &mut Bodies,
-        island: &Island,
-        supports: &[Support],
-        (law, left): (RestLaw, f64),
-    ) {
-        let mut movers = island.movers(bodies);
-        for (mover, &row) in movers.iter_mut().zip(&island.rows) {
-            let influence = &bodies.influences[row];
-            mover.linear += influence.acceleration * left;
-            mover.angular += mover.inverse_inertia * influence.torque * left;
-        }
-        let before = movers.clone();
-        // A gap within the margin is left as it is: closing it would ask for a velocity that the next step has to stop, and
-        // a stack would rock on that for ever.
-        let mut rows = island.contact_rows(bodies, supports, |parting, _| -left * parting);
-        for (index, row) in rows.iter_mut() {
-            let held = self.held(supports, *index);
-            row.pressure = held.map_or(0.0, |held| held.pressure * left);
-            let friction = held.map_or(DVec3::ZERO, |held| held.friction * left);
-            row.friction = friction - friction.dot(row.normal) * row.normal;
-        }
-        let mut only_rows: Vec<ContactRow> = rows.iter().map(|(_, row)| *row).collect();
-        solve(&mut movers, &mut only_rows, effort(law, left));
-        for ((mover, before), &row) in movers.iter().zip(&before).zip(&island.rows) {
-            bodies.influences[row].acceleration += (mover.linear - before.linear) / left;
-        }
-        for row in &only_rows {
-            let force = (row.pressure * row.normal + row.friction) / left;
-            for (mover, arm, force) in [(row.a, row.arm_a, -force), (row.b, row.arm_b, force)] {
-                if let Some(&body) = island.rows.get(mover)
-                    && bodies.constants[body].is_movable()
-                {
-                    bodies.influences[body].torque += arm.cross(force);
-                }
-            }
-        }
-        self.remember(supports, &rows, &only_rows, left);
-    }
-
-    fn held(&self, supports: &[Support], (support, manifold, point): PointIndex) -> Option<Held> {
-        let contact = supports[support].manifolds[manifold].points()[point];
-        let features = (contact.feature_a, contact.feature_b);
-        self.pairs.get(&supports[support].pair)?.iter().copied().find(|held| held.features == features)
-    }
-
-    fn remember(
-        &mut self,
-        supports: &[Support],
-        indices: &[(PointIndex, ContactRow)],
-        rows: &[ContactRow],
-        left: f64,
-    ) {
-        for support in supports {
-            if let Some(held) = self.pairs.get_mut(&support.pair) {
-                held.clear();
-            }
-        }
-        for ((index, _), row) in indices.iter().zip(rows) {
-            let contact = supports[index.0].manifolds[index.1].points()[index.2];
-            if let Some(held) = self.pairs.get_mut(&supports[index.0].pair) {
-                held.push(Held {
-                    features: (contact.feature_a, contact.feature_b),
-                    pressure: row.pressure / left,
-                    friction: row.friction / left,
+    /// Starts a step with other pairs; those that have `parted` lose their contacts.
+    pub fn begin_step(&mut self, bodies: &mut Bodies, pairs: &Pairs, parted: Vec<Pair>) {
+        self.rows.grow(bodies.states.len());
+        parted.iter().for_each(|pair| self.drop_contacts(pair));
+        self.resting = (0..pairs.len()).filter(|&index| pairs[index].rests).collect();
+        for &index in &self.resting {
+            let rows = pairs[index].rows;
+            if rows.into_iter().any(|row| bodies.constants[row].is_movable() && !bodies.is_asleep(row)) {
+                rows.into_iter().for_each(|row| {
+                    bodies.wake(row);
                 });
             }
         }
     }
-}
 
-/// Which support, manifold and point a row belongs to.
-type PointIndex = (usize, usize, usize);
+    /// Forgets the contacts of a pair.
+    pub fn drop_contacts(&mut self, pair: &Pair) {
+        for support in &pair.supports {
+            self.release(support);
+        }
+    }
 
-/// Bodies that settle together.
-pub(crate) struct Island {
-    /// Their rows, ascending.
-    pub rows: Vec<usize>,
-    /// The resting pairs among them and with what does not move.
-    pub pairs: Vec<ColliderPair>,
-}
+    fn release(&mut self, support: &Support) {
+        for row in self.graph.rows(support.contact) {
+            self.rows.let_go(row as usize);
+        }
+        self.graph.remove(support.contact);
+    }
 
-impl Island {
-    /// The bodies as movers, and last the world.
-    fn movers(&self, bodies: &Bodies) -> Vec<Mover> {
-        let mover = |row: usize| {
-            let (state, constants) = (&bodies.states[row], &bodies.constants[row]);
-            Mover {
+    /// The body of `row` is no more; that of the last row, `last`, gets its row.
+    pub fn remove_row(&mut self, row: usize, last: usize) {
+        self.rows.grow(last + 1);
+        self.rows.swap_remove(row);
+        if row != last {
+            self.graph.rename_row(last as u32, row as u32);
+        }
+    }
+
+    /// Whether contacts decide how the body of a row moves.
+    pub fn is_held(&self, row: usize) -> bool {
+        self.rows.is_held(row)
+    }
+
+    /// Gives contacts to the pairs that have come to rest against each other by `time`.
+    pub fn adopt(&mut self, bodies: &mut Bodies, pairs: &mut Pairs, law: RestLaw, span: Span) {
+        let margin = law.contact_margin();
+        for index in 0..pairs.len() {
+            let pair = &pairs[index];
+            if pair.rests || pair.sensor || pair.least_separation(bodies, span.from) > margin {
+                continue;
+            }
+            let Some(approach) = Approach::of(bodies, pair.colliders, law) else { continue };
+            let separation = approach.separation(span.from);
+            let rests = separation <= margin && approach.rests(span.from);
+            pairs[index].measured(bodies, separation, span.from);
+            if rests {
+                self.take(bodies, pairs, index, (law, span));
+            }
+        }
+    }
+
+    /// Gives contacts to a pair at the start of `span`.
+    pub fn take(&mut self, bodies: &mut Bodies, pairs: &mut Pairs, index: usize, at: (RestLaw, Span)) {
+        for row in pairs[index].rows {
+            bodies.wake(row);
+            advance(bodies, row, at.1.from);
+            if !self.rows.is_held(row) {
+                self.rows.anchor(bodies, row);
+            }
+            self.rows.read_drift(bodies, row, 1.0);
+        }
+        pairs[index].rests = true;
+        self.renew(bodies, &mut pairs[index], at);
+        if pairs[index].rests {
+            self.resting.push(index);
+        }
+    }
+
+    /// Looks at a pair closely: new geometry, old impulses. A pair that is out of reach rests no more.
+    fn renew(&mut self, bodies: &Bodies, pair: &mut Pair, (law, span): (RestLaw, Span)) {
+        let (Some(a), Some(b)) = (bodies.collider(pair.colliders.0), bodies.collider(pair.colliders.1)) else {
+            return;
+        };
+        let margin = law.contact_margin();
+        let grain = a.reach.min(b.reach);
+        let way = |side: usize| {
+            let (linear, angular) = bodies.paces[pair.rows[side]];
+            linear + angular * pair.spin_reach[side]
+        };
+        let ahead = ((way(0) + way(1)) * (law.step - span.from)).min(0.2 * grain);
+        let approach = Approach::new(bodies, a, b, law);
+        let mut manifolds = Vec::new();
+        approach.manifolds(span.from, margin + 0.01 * grain + ahead, &mut manifolds);
+
+        let side = |collider: &crate::bodies::ColliderRow, outward: DVec3, point: DVec3| {
+            let constants = &bodies.constants[collider.row];
+            let center = bodies.center_pose(collider);
+            let pose = center.then_local(&collider.local);
+            let local = (pose.inverse_transform_point(point), pose.rotation.conjugate() * outward);
+            let movable = constants.is_movable();
+            Side {
+                center: center.position,
                 inverse_mass: constants.inverse_mass,
-                inverse_inertia: if constants.is_movable() {
-                    constants.inverse_inertia(state.rotation)
-                } else {
-                    DMat3::ZERO
-                },
-                linear: state.velocity,
-                angular: constants.angular_velocity(state),
+                inverse_inertia: if movable { constants.inverse_inertia(center.rotation) } else { DMat3::ZERO },
+                drift: self.rows.drift(collider.row),
+                roundness: collider.shape.roundness(local.0, local.1),
             }
         };
-        self.rows.iter().copied().chain([WORLD_ROW]).map(mover).collect()
-    }
-
-    fn mover_of(&self, row: usize) -> usize {
-        self.rows.binary_search(&row).unwrap_or(self.rows.len())
-    }
-
-    /// A row for each contact point; `least_velocity` gets the centripetal acceleration that parts the point, and the point.
-    fn contact_rows(
-        &self,
-        bodies: &Bodies,
-        supports: &[Support],
-        least_velocity: impl Fn(f64, &crate::collide::ContactPoint) -> f64,
-    ) -> Vec<(PointIndex, ContactRow)> {
-        let mut rows = Vec::new();
-        for (index, support) in supports.iter().enumerate() {
-            let (Some(a), Some(b)) = (bodies.collider(support.pair.0), bodies.collider(support.pair.1))
-            else {
-                continue;
+        let terms = Terms { surface: pair.surface, margin };
+        let old = std::mem::take(&mut pair.supports);
+        let lanes: Vec<_> = manifolds
+            .iter()
+            .filter(|manifold| !manifold.points().is_empty())
+            .map(|manifold| {
+                let normal = manifold.normal;
+                let at = manifold.points()[0].point;
+                let sides = [side(a, normal, at), side(b, -normal, at)];
+                let remembered = self.remembered(&old, manifold);
+                (manifold, lane(normal, manifold.points(), &sides, &terms, &remembered))
+            })
+            .collect();
+        let rows = pair.rows.map(|row| row as u32);
+        let movable = pair.rows.map(|row| bodies.constants[row].is_movable());
+        for (number, (manifold, lane)) in lanes.iter().enumerate() {
+            let contact = match old.get(number) {
+                Some(support) => {
+                    self.graph.write(support.contact, lane);
+                    support.contact
+                }
+                None => {
+                    pair.rows.into_iter().for_each(|row| self.rows.hold(row));
+                    self.graph.insert(rows, movable, lane)
+                }
             };
-            let surface = crate::material::Surface::between(&a.material, &b.material);
-            let (center_a, center_b) = (bodies.center_pose(a).position, bodies.center_pose(b).position);
-            for (which, manifold) in support.manifolds.iter().enumerate() {
-                for (point, contact) in manifold.points().iter().enumerate() {
-                    let (arm_a, arm_b) = (contact.point - center_a, contact.point - center_b);
-                    let corner = |row: usize, arm: DVec3, feature: Feature| {
-                        let spin = bodies.constants[row].angular_velocity(&bodies.states[row]);
-                        let corner = matches!(feature, Feature::Vertex(_));
-                        if corner { spin.cross(spin.cross(arm)).dot(manifold.normal) } else { 0.0 }
-                    };
-                    let parting =
-                        corner(b.row, arm_b, contact.feature_b) - corner(a.row, arm_a, contact.feature_a);
-                    rows.push((
-                        (index, which, point),
-                        ContactRow {
-                            a: self.mover_of(a.row),
-                            b: self.mover_of(b.row),
-                            arm_a,
-                            arm_b,
-                            normal: manifold.normal,
-                            static_friction: surface.static_friction,
-                            dynamic_friction: surface.dynamic_friction,
-                            least_velocity: least_velocity(parting, contact),
-                            pressure: 0.0,
-                            friction: DVec3::ZERO,
-                        },
-                    ));
+            pair.supports.push(Support::new(contact, manifold));
+        }
+        for support in old.iter().skip(lanes.len()) {
+            self.release(support);
+        }
+        pair.rests = !pair.supports.is_empty();
+    }
+
+    /// The impulses of the contacts that a manifold follows upon: point by point where the same features touch, else in equal
+    /// parts.
+    fn remembered(&self, old: &[Support], manifold: &Manifold) -> Remembered {
+        let mut remembered = Remembered::default();
+        let mut matched = false;
+        for (entry, point) in remembered.pressure.iter_mut().zip(manifold.points()) {
+            let features = (point.feature_a, point.feature_b);
+            for support in old {
+                if let Some(index) = support.features().iter().position(|&it| it == features) {
+                    *entry = f64::from(self.graph.get(support.contact, field::of_point(index, field::IMPULSE)));
+                    matched = true;
+                    break;
                 }
             }
         }
-        rows
+        let alike = old.iter().max_by(|x, y| {
+            let likeness = |support: &Support| support.normal.dot(manifold.normal);
+            likeness(x).total_cmp(&likeness(y))
+        });
+        let Some(support) = alike.filter(|support| support.normal.dot(manifold.normal) > 0.9) else {
+            return remembered;
+        };
+        let read = |field: usize| f64::from(self.graph.get(support.contact, field));
+        let axis = |field: usize| DVec3::new(read(field), read(field + 1), read(field + 2));
+        let (first, normal) = (axis(field::TANGENT), axis(field::NORMAL));
+        remembered.friction =
+            first * read(field::FRICTION) + normal.cross(first) * read(field::FRICTION + 1);
+        remembered.twist = read(field::TWIST);
+        if !matched {
+            let count = support.features().len();
+            let total: f64 = (0..count).map(|index| read(field::of_point(index, field::IMPULSE))).sum();
+            let points = manifold.points().len();
+            remembered.pressure[..points].fill(total / points as f64);
+        }
+        remembered
     }
-}
 
-/// How far to solve for velocities that change within `time` seconds.
-fn effort(law: RestLaw, time: f64) -> Effort {
-    Effort { sweeps: SWEEPS, agreement: AGREEMENT * law.gravity.length().max(1e-3) * time }
-}
-
-fn support(bodies: &Bodies, pair: ColliderPair, law: RestLaw, (time, margin): (f64, f64)) -> Support {
-    let mut manifolds = Vec::new();
-    if let (Some(a), Some(b)) = (bodies.collider(pair.0), bodies.collider(pair.1)) {
-        Approach::new(bodies, a, b, law).manifolds(time, margin, &mut manifolds);
+    /// Finds what holds the bodies that rest on something during `span`, and gives them their paths; returns the rows of these
+    /// bodies.
+    pub fn hold(&mut self, bodies: &mut Bodies, pairs: &mut Pairs, law: RestLaw, span: Span) -> Vec<usize> {
+        let held = self.rows.held().to_vec();
+        for &row in &held {
+            advance(bodies, row, span.from);
+        }
+        let limit = if span.from == 0.0 { DRIFT } else { DRIFT_WITHIN };
+        self.renew_moved(bodies, pairs, &held, (law, span, limit));
+        self.graph.measure(&self.rows.drifts);
+        self.let_part(pairs, law);
+        self.push(bodies, law, span)
     }
-    Support { pair, manifolds }
-}
 
-/// Stops whatever closes, by impulses with C_r = 0 and friction.
-fn stop_closing(bodies: &mut Bodies, island: &Island, supports: &[Support], law: RestLaw) {
-    let mut movers = island.movers(bodies);
-    let rows = island.contact_rows(bodies, supports, |_, _| 0.0);
-    let mut rows: Vec<ContactRow> = rows.into_iter().map(|(_, row)| row).collect();
-    solve(&mut movers, &mut rows, effort(law, law.substep));
-    for row in &rows {
-        let impulse = row.pressure * row.normal + row.friction;
-        for (mover, arm, impulse) in [(row.a, row.arm_a, -impulse), (row.b, row.arm_b, impulse)] {
-            if let Some(&body) = island.rows.get(mover) {
-                push(bodies, body, arm, impulse);
+    /// Renews the contacts of the bodies that have moved further than `limit` from their anchors.
+    fn renew_moved(
+        &mut self,
+        bodies: &mut Bodies,
+        pairs: &mut Pairs,
+        held: &[usize],
+        (law, span, limit): (RestLaw, Span, f64),
+    ) {
+        let mut has_moved = vec![false; bodies.states.len()];
+        for &row in held {
+            if self.rows.read_drift(bodies, row, bodies.grains[row]) > limit {
+                has_moved[row] = true;
+                self.rows.anchor(bodies, row);
+            }
+        }
+        for index in 0..self.resting.len() {
+            let pair = &mut pairs[self.resting[index]];
+            if pair.rests && pair.rows.into_iter().any(|row| has_moved[row]) {
+                self.renew(bodies, pair, (law, span));
+            }
+        }
+        self.resting.retain(|&index| pairs[index].rests);
+    }
+
+    /// Lets go of pairs whose every point is further apart than the contact margin.
+    fn let_part(&mut self, pairs: &mut Pairs, law: RestLaw) {
+        let margin = law.contact_margin() as f32;
+        for &index in &self.resting {
+            let gap = |support: &Support| self.graph.get(support.contact, field::GAP);
+            let pair = &mut pairs[index];
+            if pair.supports.iter().all(|support| gap(support) > margin) {
+                pair.rests = false;
+                for support in std::mem::take(&mut pair.supports) {
+                    for row in self.graph.rows(support.contact) {
+                        self.rows.let_go(row as usize);
+                    }
+                    self.graph.remove(support.contact);
+                }
+            }
+        }
+        self.resting.retain(|&index| pairs[index].rests);
+    }
+
+    /// Solves, and turns the velocities found into paths.
+    fn push(&mut self, bodies: &mut Bodies, law: RestLaw, span: Span) -> Vec<usize> {
+        let substep = span.until - span.from;
+        let held = self.rows.held().to_vec();
+        let mut gains = Vec::with_capacity(held.len());
+        for &row in &held {
+            let free = if bodies.is_asleep(row) {
+                Influence::default()
+            } else {
+                free_influence(bodies, row, law.gravity)
+            };
+            let inverse_inertia = bodies.constants[row].inverse_inertia(bodies.states[row].rotation);
+            let gain = [free.acceleration * substep, inverse_inertia * free.torque * substep];
+            self.rows.read_velocity(bodies, row, gain);
+            gains.push((gain, free.torque * substep, self.rows.velocities[row]));
+        }
+        self.graph.begin(&mut self.rows.velocities, substep);
+        let persisting: Vec<Row> = held.iter().map(|&row| self.rows.velocities[row]).collect();
+        let agreement = (AGREEMENT * law.gravity.length() * substep).max(1e-7) as f32;
+        let effort = Effort { agreement, sweeps: SWEEPS, budget: BUDGET };
+        self.graph.solve(&mut self.rows.velocities, effort, |row| bodies.constants[row].is_movable());
+
+        for ((&row, (gain, turn, before)), warm) in held.iter().zip(gains).zip(persisting) {
+            if !bodies.constants[row].is_movable() || bodies.is_asleep(row) {
+                continue;
+            }
+            let after = self.rows.velocities[row];
+            let [linear, angular] = difference(&after, &before);
+            let inertia = bodies.constants[row].inertia(bodies.states[row].rotation);
+            let change = [gain[0] + linear, turn + inertia * angular];
+            let sudden = difference(&after, &warm);
+            let steady = sudden[0].length().max(sudden[1].length() * bodies.grains[row])
+                <= STEADY * gain[0].length();
+            follow(bodies, row, change, (substep, steady));
+            set_pace(bodies, row, span.until);
+        }
+        held
+    }
+
+    /// Pushes overlaps out, at the end of a step; velocities stay.
+    pub fn push_out(&mut self, bodies: &mut Bodies, law: RestLaw) {
+        let held = self.rows.held().to_vec();
+        for &row in &held {
+            self.rows.read_drift(bodies, row, 1.0);
+            let velocity = self.rows.velocities[row].0;
+            let still = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, velocity[6], velocity[7]];
+            self.rows.displacements[row] = Row(still);
+        }
+        self.graph.measure(&self.rows.drifts);
+        let allowed = (LEFT_IN * law.contact_margin()) as f32;
+        if !self.graph.push_out(&mut self.rows.displacements, PUSH_OUT, allowed) {
+            return;
+        }
+        for &row in &held {
+            let [linear, angular] = difference(&self.rows.displacements[row], &Row::ZERO);
+            if linear != DVec3::ZERO || angular != DVec3::ZERO {
+                let state = &mut bodies.states[row];
+                state.position += linear;
+                state.rotation = (rotation_from_vector(angular) * state.rotation).normalize();
+                bodies.ways[row].0 += linear.length();
+                bodies.ways[row].1 += angular.length();
             }
         }
     }
+
+    /// The pairs that touch.
+    pub fn touching<'a>(&'a self, pairs: &'a Pairs, law: RestLaw) -> impl Iterator<Item = &'a Pair> {
+        let margin = law.contact_margin() as f32;
+        let touches = move |support: &Support| self.graph.get(support.contact, field::GAP) <= margin;
+        self.resting.iter().map(|&index| &pairs[index]).filter(move |pair| pair.supports.iter().any(touches))
+    }
+
+    /// Whether a point of a pair that rests will be driven into the other body, in the time left of a substep, further than
+    /// contacts can be left to deal with.
+    pub fn is_driven(&self, bodies: &Bodies, pair: &Pair, law: RestLaw, span: Span) -> bool {
+        let left = span.until - span.from;
+        let centers = pair.rows.map(|row| bodies.states[row].position);
+        let grain = bodies.grains[pair.rows[0]].min(bodies.grains[pair.rows[1]]);
+        let bounces = pair.surface.restitution > 0.0;
+        let slowest = if bounces { law.drift_speed() } else { PRESSED * grain / law.substep };
+        let motion = pair.rows.map(|row| {
+            let state = &bodies.states[row];
+            (state.velocity, bodies.constants[row].angular_velocity(state))
+        });
+        let _ = centers;
+        pair.supports.iter().any(|support| {
+            let get = |field: usize| f64::from(self.graph.get(support.contact, field));
+            let axis = |field: usize| DVec3::new(get(field), get(field + 1), get(field + 2));
+            let (normal, first) = (axis(field::NORMAL), axis(field::TANGENT));
+            let second = normal.cross(first);
+            let inward = |v: DVec3| DVec3::new(v.dot(first), v.dot(second), v.dot(normal));
+            let relative = (motion[1].0 - motion[0].0).dot(normal);
+            let (spin_a, spin_b) = (inward(motion[0].1), inward(motion[1].1));
+            (0..support.features().len()).any(|point| {
+                let at = |line: usize| field::of_point(point, line);
+                let (arm_a, arm_b) = (axis(at(field::ARM_A)), axis(at(field::ARM_B)));
+                let speed = relative + (spin_b.x * arm_b.y - spin_b.y * arm_b.x)
+                    - (spin_a.x * arm_a.y - spin_a.y * arm_a.x);
+                let gap = get(at(field::SEPARATION));
+                speed < -slowest && gap + speed * left < 0.0
+            })
+        })
+    }
 }
 
-/// Share of an overlap that is pushed out at the end of a step, and how often the rows are gone through.
-const PUSH_OUT: f64 = 0.5;
-const PUSH_SWEEPS: usize = 20;
+/// A resting pair that loses its speed in a collision is left to the contacts if it would go no further into the other body
+/// within a substep than this share of the smaller reach.
+const PRESSED: f64 = 0.02;
 
-/// Pushes resting bodies out of each other where rounding and curved paths have let them overlap; velocities stay.
-pub(crate) fn push_out(bodies: &mut Bodies, island: &Island, law: RestLaw, time: f64) {
-    let allowed = 0.1 * law.contact_margin();
-    let supports: Vec<Support> =
-        island.pairs.iter().map(|&pair| support(bodies, pair, law, (time, 0.0))).collect();
-    let overlaps = supports
-        .iter()
-        .flat_map(|support| &support.manifolds)
-        .flat_map(Manifold::points)
-        .any(|contact| contact.separation < -allowed);
-    if !overlaps {
-        return;
-    }
-    let mut movers = island.movers(bodies);
-    for mover in &mut movers {
-        (mover.linear, mover.angular) = (DVec3::ZERO, DVec3::ZERO);
-    }
-    let rows = island
-        .contact_rows(bodies, &supports, |_, contact| PUSH_OUT * (-contact.separation - allowed).max(0.0));
-    let mut rows: Vec<ContactRow> = rows
-        .into_iter()
-        .map(|(_, row)| ContactRow { static_friction: 0.0, dynamic_friction: 0.0, ..row })
-        .collect();
-    solve(&mut movers, &mut rows, Effort { sweeps: PUSH_SWEEPS, agreement: 0.1 * allowed });
-    for (mover, &row) in movers.iter().zip(&island.rows) {
-        let state = &mut bodies.states[row];
-        state.position += mover.linear;
-        state.rotation = (rotation_from_vector(mover.angular) * state.rotation).normalize();
-    }
+/// Where the sweeps change a body's velocity by less than this share of what gravity does, the forces on it persist.
+const STEADY: f64 = 0.05;
+
+fn difference(after: &Row, before: &Row) -> [DVec3; 2] {
+    let change = |index: usize| f64::from(after.0[index] - before.0[index]);
+    [DVec3::new(change(0), change(1), change(2)), DVec3::new(change(3), change(4), change(5))]
+}
+
+/// Sets a body on its path for a substep in which its velocity and angular momentum get `change`d: a parabola where the forces
+/// persist, so that what slides or rolls gets the distance right; else with the new velocity from the start, as what meets
+/// an obstacle must not go on into it for half a substep.
+fn follow(bodies: &mut Bodies, row: usize, change: [DVec3; 2], (substep, steady): (f64, bool)) {
+    let state = &mut bodies.states[row];
+    bodies.influences[row] = if steady {
+        Influence { acceleration: change[0] / substep, torque: change[1] / substep }
+    } else {
+        state.velocity += change[0];
+        state.angular_momentum += change[1];
+        Influence::default()
+    };
+    debug_assert!(row != WORLD_ROW);
 }

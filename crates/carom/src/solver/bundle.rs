@@ -1,0 +1,114 @@
+//! Bundles: contacts in the layout they are solved in.
+//!
+//! A *contact* is a manifold that rests: up to four points with one normal between two bodies. It owns one lane of a bundle
+//! for as long as it lasts, so that nothing has to be gathered, prepared or stored again while it lies still. All
+//! its vectors stand in the *contact frame* (t₁, t₂, n) with `t₂ = n × t₁`, where an arm crossed with the normal is
+//! just `(y, −x, 0)`.
+//!
+//! Conventions: impulses act on `b` and, reversed, on `a`; `n` points from `a` to `b`; separating is positive. N·s, m, s.
+
+use super::lanes::{LANES, Line};
+
+/// Points of a contact.
+pub(crate) const POINTS: usize = 4;
+
+/// Which line of a bundle holds what.
+pub(crate) mod field {
+    /// n in the world, three lines.
+    pub const NORMAL: usize = 0;
+    /// t₁ in the world, three lines.
+    pub const TANGENT: usize = 3;
+    /// Inverse inertia of `a`, contact frame, six lines; then of `b`.
+    pub const INVERSE_INERTIA_A: usize = 6;
+    pub const INVERSE_INERTIA_B: usize = 12;
+    /// Arms of the point at which friction acts, three lines each.
+    pub const FRICTION_ARM_A: usize = 18;
+    pub const FRICTION_ARM_B: usize = 21;
+    /// 1 / the largest response to a unit impulse in the tangent plane.
+    pub const FRICTION_MASS: usize = 24;
+    /// Friction impulse along t₁ and t₂.
+    pub const FRICTION: usize = 25;
+    /// 1 / the response to a unit angular impulse about n, and that impulse (N·m·s).
+    pub const TWIST_MASS: usize = 27;
+    pub const TWIST: usize = 28;
+    /// Coulomb's coefficients.
+    pub const STATIC_FRICTION: usize = 29;
+    pub const DYNAMIC_FRICTION: usize = 30;
+    /// Gap up to which a point counts at all: infinite, but for contacts that bounce. m.
+    pub const HORIZON: usize = 31;
+    /// How far the last sweep has changed a velocity, m/s.
+    pub const RESIDUAL: usize = 32;
+    /// The least separation of all points, m.
+    pub const GAP: usize = 33;
+    /// The first point's lines; each further point [`POINT_LINES`] further.
+    pub const POINT: usize = 34;
+
+    /// Of a point: arm of `a` (x, y, and z of what turns with the body), then of `b`.
+    pub const ARM_A: usize = 0;
+    pub const ARM_B: usize = 3;
+    /// Separation when the two bodies are at their anchors, m.
+    pub const BASE: usize = 6;
+    /// 1 / the response to a unit normal impulse; 0 where there is no point.
+    pub const MASS: usize = 7;
+    /// Normal impulse.
+    pub const IMPULSE: usize = 8;
+    /// Distance from where friction acts, m.
+    pub const LEVER: usize = 9;
+    /// The least normal velocity that it may have, m/s.
+    pub const LEAST: usize = 10;
+    /// Separation at the start of the substep, m.
+    pub const SEPARATION: usize = 11;
+    pub const POINT_LINES: usize = 12;
+
+    /// Lines of a bundle.
+    pub const COUNT: usize = POINT + super::POINTS * POINT_LINES;
+
+    /// A line of point number `point`.
+    pub const fn of_point(point: usize, line: usize) -> usize {
+        POINT + point * POINT_LINES + line
+    }
+}
+
+/// One contact's numbers, line by line.
+pub(crate) type Lane = [f32; field::COUNT];
+
+/// Contacts that share no body that can be moved.
+#[derive(Clone, Debug)]
+pub(crate) struct Bundle {
+    pub a: [u32; LANES],
+    pub b: [u32; LANES],
+    /// The largest number of points in a lane.
+    pub points: usize,
+    pub lines: [Line; field::COUNT],
+}
+
+impl Bundle {
+    /// A bundle of lanes that touch nothing: no mass to push, between the world and the world.
+    pub const EMPTY: Bundle =
+        Bundle { a: [0; LANES], b: [0; LANES], points: 0, lines: [Line::ZERO; field::COUNT] };
+
+    pub fn write(&mut self, lane: usize, [a, b]: [u32; 2], values: &Lane) {
+        (self.a[lane], self.b[lane]) = (a, b);
+        for (line, &value) in self.lines.iter_mut().zip(values) {
+            line.0[lane] = value;
+        }
+        self.count_points();
+    }
+
+    pub fn read(&self, lane: usize) -> ([u32; 2], Lane) {
+        let mut values = [0.0; field::COUNT];
+        for (value, line) in values.iter_mut().zip(&self.lines) {
+            *value = line.0[lane];
+        }
+        ([self.a[lane], self.b[lane]], values)
+    }
+
+    pub fn get(&self, lane: usize, field: usize) -> f32 {
+        self.lines[field].0[lane]
+    }
+
+    fn count_points(&mut self) {
+        let has = |point: usize| self.lines[field::of_point(point, field::MASS)].0.iter().any(|&mass| mass > 0.0);
+        self.points = (0..POINTS).rev().find(|&point| has(point)).map_or(0, |point| point + 1);
+    }
+}

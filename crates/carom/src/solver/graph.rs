@@ -1,0 +1,347 @@
+//! All contacts of a world, coloured.
+//!
+//! Two contacts of one *colour* share no body that can be moved, so that the lanes of a bundle, and the bundles of a colour,
+//! have nothing to do with each other: the result does not depend on how many are computed at once. Contacts between two
+//! bodies that move come first, those with the ground last, so that in doubt nothing is pushed into the ground.
+//!
+//! Bodies that contacts connect make an *island*. A sweep carries an impulse from one contact to the next, so that a tall
+//! stack needs many before all of it knows how heavy it is. Islands whose velocities still change go on being swept while the
+//! others are done: what rests keeps its impulses from substep to substep and is done at once.
+
+use super::bundle::{Bundle, Lane, POINTS, field};
+use super::contact;
+use super::lanes::{LANES, Line, Portable, Row};
+
+/// The lanes that a plain build computes with.
+type Wide = Portable<4>;
+
+/// Names a contact as long as it lasts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct ContactId(u32);
+
+/// Where a contact is.
+#[derive(Clone, Copy, Debug)]
+struct Place {
+    color: usize,
+    lane: usize,
+}
+
+/// Contacts that share no body that can be moved.
+#[derive(Default)]
+struct Color {
+    bundles: Vec<Bundle>,
+    /// The contact of each lane.
+    contacts: Vec<u32>,
+    /// Whether the body of a row has a contact of this colour, 64 rows to a word.
+    taken: Vec<u64>,
+}
+
+impl Color {
+    fn is_taken(&self, row: u32) -> bool {
+        self.taken.get(row as usize / 64).is_some_and(|word| word >> (row % 64) & 1 == 1)
+    }
+
+    fn mark(&mut self, row: u32, taken: bool) {
+        let word = row as usize / 64;
+        if word >= self.taken.len() {
+            self.taken.resize(word + 1, 0);
+        }
+        let bit = 1 << (row % 64);
+        self.taken[word] = if taken { self.taken[word] | bit } else { self.taken[word] & !bit };
+    }
+}
+
+/// How far islands are swept.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Effort {
+    /// An island is done when a sweep changes no velocity by more than this, m/s.
+    pub agreement: f32,
+    /// Sweeps that every contact gets.
+    pub sweeps: u32,
+    /// An island may take so many sweeps times contacts before it has to go on in the next substep.
+    pub budget: u32,
+}
+
+/// Contacts with whom the world's row, or what is driven, is one side.
+const FIXED: usize = 1;
+const MOVING: usize = 0;
+
+/// Every so many colours of contacts between moving bodies there is one of the other kind: `color % 2` tells which.
+const KINDS: usize = 2;
+
+/// All contacts.
+#[derive(Default)]
+pub(crate) struct Graph {
+    /// Even: between bodies that move. Odd: with what does not.
+    colors: Vec<Color>,
+    places: Vec<Option<Place>>,
+    free: Vec<u32>,
+    islands: Islands,
+}
+
+/// Which contacts hang together.
+#[derive(Default)]
+struct Islands {
+    is_stale: bool,
+    /// The island of each row.
+    of_row: Vec<u32>,
+    /// Contacts in each island.
+    sizes: Vec<u32>,
+}
+
+/// No island: the world and what is driven.
+const NONE: u32 = u32::MAX;
+
+impl Graph {
+    /// Adds a contact between the bodies of two rows; `movable` tells which of them an impulse can move.
+    pub fn insert(&mut self, rows: [u32; 2], movable: [bool; 2], lane: &Lane) -> ContactId {
+        let kind = if movable == [true, true] { MOVING } else { FIXED };
+        let is_open = |color: &Color| (0..2).all(|side| !movable[side] || !color.is_taken(rows[side]));
+        let mut color = kind;
+        while self.colors.get(color).is_some_and(|it| !is_open(it)) {
+            color += KINDS;
+        }
+        while self.colors.len() <= color {
+            self.colors.push(Color::default());
+        }
+        let id = self.free.pop().unwrap_or_else(|| {
+            self.places.push(None);
+            (self.places.len() - 1) as u32
+        });
+        let target = &mut self.colors[color];
+        let place = Place { color, lane: target.contacts.len() };
+        for side in (0..2).filter(|&side| movable[side]) {
+            target.mark(rows[side], true);
+        }
+        target.contacts.push(id);
+        if place.lane.is_multiple_of(LANES) {
+            target.bundles.push(Bundle::EMPTY);
+        }
+        target.bundles[place.lane / LANES].write(place.lane % LANES, rows, lane);
+        self.places[id as usize] = Some(place);
+        self.islands.is_stale = true;
+        ContactId(id)
+    }
+
+    fn place(&self, id: ContactId) -> Option<Place> {
+        self.places.get(id.0 as usize).copied().flatten()
+    }
+
+    /// Gives a contact other numbers.
+    pub fn write(&mut self, id: ContactId, lane: &Lane) {
+        if let Some(place) = self.place(id) {
+            let bundle = &mut self.colors[place.color].bundles[place.lane / LANES];
+            let (rows, _) = bundle.read(place.lane % LANES);
+            bundle.write(place.lane % LANES, rows, lane);
+        }
+    }
+
+    /// One of a contact's numbers.
+    pub fn get(&self, id: ContactId, field: usize) -> f32 {
+        self.place(id).map_or(0.0, |place| {
+            self.colors[place.color].bundles[place.lane / LANES].get(place.lane % LANES, field)
+        })
+    }
+
+    /// The rows of a contact's bodies.
+    pub fn rows(&self, id: ContactId) -> [u32; 2] {
+        self.place(id).map_or([0; 2], |place| {
+            let bundle = &self.colors[place.color].bundles[place.lane / LANES];
+            [bundle.a[place.lane % LANES], bundle.b[place.lane % LANES]]
+        })
+    }
+
+    /// Removes a contact; the last of its colour takes its lane.
+    pub fn remove(&mut self, id: ContactId) {
+        let Some(Place { color, lane }) = self.place(id) else { return };
+        let color = &mut self.colors[color];
+        let last = color.contacts.len() - 1;
+        let (rows, _) = color.bundles[lane / LANES].read(lane % LANES);
+        rows.into_iter().for_each(|row| color.mark(row, false));
+        if last != lane {
+            let (rows, moved) = color.bundles[last / LANES].read(last % LANES);
+            color.bundles[lane / LANES].write(lane % LANES, rows, &moved);
+            let contact = color.contacts[last];
+            color.contacts[lane] = contact;
+            if let Some(place) = &mut self.places[contact as usize] {
+                place.lane = lane;
+            }
+        }
+        color.contacts.pop();
+        if last.is_multiple_of(LANES) {
+            color.bundles.pop();
+        } else {
+            color.bundles[last / LANES].write(last % LANES, [0; 2], &[0.0; field::COUNT]);
+        }
+        self.places[id.0 as usize] = None;
+        self.free.push(id.0);
+        self.islands.is_stale = true;
+    }
+
+    /// The body of row `from` has moved to row `to`.
+    pub fn rename_row(&mut self, from: u32, to: u32) {
+        for color in &mut self.colors {
+            for bundle in &mut color.bundles {
+                for row in bundle.a.iter_mut().chain(&mut bundle.b).filter(|row| **row == from) {
+                    *row = to;
+                }
+            }
+            let taken = color.is_taken(from);
+            color.mark(from, false);
+            color.mark(to, taken);
+        }
+        self.islands.is_stale = true;
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.colors.iter().all(|color| color.contacts.is_empty())
+    }
+
+    /// Colours in the order in which they are swept.
+    fn order(&self) -> impl Iterator<Item = usize> + use<> {
+        let count = self.colors.len();
+        (MOVING..count).step_by(KINDS).chain((FIXED..count).step_by(KINDS))
+    }
+
+    fn each_bundle(&mut self, mut act: impl FnMut(&mut Bundle)) {
+        for color in self.order() {
+            self.colors[color].bundles.iter_mut().for_each(&mut act);
+        }
+    }
+
+    /// Finds all separations from the bodies' drifts.
+    pub fn measure(&mut self, drifts: &[Row]) {
+        self.each_bundle(|bundle| contact::measure::<Wide>(bundle, drifts));
+    }
+
+    /// Lets the impulses of the last substep act again.
+    pub fn begin(&mut self, velocities: &mut [Row], substep: f64) {
+        let rate = (1.0 / substep) as f32;
+        self.each_bundle(|bundle| contact::begin::<Wide>(bundle, velocities, rate));
+    }
+
+    /// Sweeps until velocities agree, island by island. `is_movable` tells of a row whether impulses move it.
+    pub fn solve(&mut self, velocities: &mut [Row], effort: Effort, is_movable: impl Fn(usize) -> bool) {
+        for _ in 0..effort.sweeps {
+            self.each_bundle(|bundle| contact::sweep::<Wide>(bundle, velocities));
+        }
+        self.find_islands(velocities.len(), is_movable);
+        let mut active: Vec<(usize, usize)> = self
+            .order()
+            .flat_map(|color| (0..self.colors[color].bundles.len()).map(move |bundle| (color, bundle)))
+            .collect();
+        let mut sweeps = effort.sweeps;
+        loop {
+            let open = self.open_islands(&active, effort, sweeps);
+            active.retain(|&(color, bundle)| {
+                let bundle = &self.colors[color].bundles[bundle];
+                (0..LANES).any(|lane| self.island_of(bundle, lane).is_some_and(|island| open[island]))
+            });
+            if active.is_empty() {
+                return;
+            }
+            for _ in 0..ROUND {
+                for &(color, bundle) in &active {
+                    contact::sweep::<Wide>(&mut self.colors[color].bundles[bundle], velocities);
+                }
+            }
+            sweeps += ROUND;
+        }
+    }
+
+    fn island_of(&self, bundle: &Bundle, lane: usize) -> Option<usize> {
+        let of_row = |row: u32| self.islands.of_row.get(row as usize).copied().filter(|&island| island != NONE);
+        of_row(bundle.a[lane]).or(of_row(bundle.b[lane])).map(|island| island as usize)
+    }
+
+    /// Which islands have to be swept further.
+    fn open_islands(&self, active: &[(usize, usize)], effort: Effort, sweeps: u32) -> Vec<bool> {
+        let mut open = vec![false; self.islands.sizes.len()];
+        for &(color, bundle) in active {
+            let bundle = &self.colors[color].bundles[bundle];
+            for (lane, &residual) in bundle.lines[field::RESIDUAL].0.iter().enumerate() {
+                if residual > effort.agreement
+                    && let Some(island) = self.island_of(bundle, lane)
+                {
+                    open[island] |= sweeps.saturating_mul(self.islands.sizes[island]) < effort.budget;
+                }
+            }
+        }
+        open
+    }
+
+    fn find_islands(&mut self, rows: usize, is_movable: impl Fn(usize) -> bool) {
+        if !self.islands.is_stale {
+            return;
+        }
+        let mut root: Vec<u32> = (0..rows as u32).collect();
+        fn find(root: &mut [u32], mut row: u32) -> u32 {
+            while root[row as usize] != row {
+                root[row as usize] = root[root[row as usize] as usize];
+                row = root[row as usize];
+            }
+            row
+        }
+        let lanes = || {
+            let bundles = self.colors.iter().flat_map(|color| &color.bundles);
+            bundles.flat_map(|bundle| bundle.a.iter().copied().zip(bundle.b))
+        };
+        for (a, b) in lanes().filter(|&(a, b)| is_movable(a as usize) && is_movable(b as usize)) {
+            let (a, b) = (find(&mut root, a), find(&mut root, b));
+            root[a.max(b) as usize] = a.min(b);
+        }
+        let mut of_row = vec![NONE; rows];
+        let mut sizes = Vec::new();
+        for (a, b) in lanes() {
+            let Some(row) = [a, b].into_iter().find(|&row| is_movable(row as usize)) else { continue };
+            let top = find(&mut root, row) as usize;
+            if of_row[top] == NONE {
+                of_row[top] = sizes.len() as u32;
+                sizes.push(0);
+            }
+            sizes[of_row[top] as usize] += 1;
+        }
+        for row in 0..rows {
+            of_row[row] = if is_movable(row) { of_row[find(&mut root, row as u32) as usize] } else { NONE };
+        }
+        self.islands = Islands { is_stale: false, of_row, sizes };
+    }
+
+    /// Finds displacements that take `share` of every overlap beyond `allowed` (m) away, into rows that hold none yet; false if
+    /// there is no such overlap.
+    pub fn push_out(&mut self, displacements: &mut [Row], share: f32, allowed: f32) -> bool {
+        let overlaps = |bundle: &Bundle| bundle.lines[field::GAP].0.iter().any(|&gap| gap < -allowed);
+        if !self.colors.iter().flat_map(|color| &color.bundles).any(overlaps) {
+            return false;
+        }
+        let impulses: Vec<[Line; POINTS]> = self
+            .order()
+            .flat_map(|color| &self.colors[color].bundles)
+            .map(|bundle| [0, 1, 2, 3].map(|point| bundle.lines[field::of_point(point, field::IMPULSE)]))
+            .collect();
+        self.each_bundle(|bundle| {
+            for point in 0..POINTS {
+                let separation = bundle.lines[field::of_point(point, field::SEPARATION)].0;
+                bundle.lines[field::of_point(point, field::IMPULSE)] = Line::ZERO;
+                bundle.lines[field::of_point(point, field::LEAST)] =
+                    Line(separation.map(|s| if s < -allowed { share * (-s - allowed) } else { -s.max(0.0) }));
+            }
+        });
+        for _ in 0..PUSH_SWEEPS {
+            self.each_bundle(|bundle| contact::sweep_normals::<Wide>(bundle, displacements));
+        }
+        let mut impulses = impulses.into_iter();
+        self.each_bundle(|bundle| {
+            for (point, line) in impulses.next().into_iter().flatten().enumerate() {
+                bundle.lines[field::of_point(point, field::IMPULSE)] = line;
+            }
+        });
+        true
+    }
+}
+
+/// Sweeps between two looks at which islands agree.
+const ROUND: u32 = 4;
+
+/// Sweeps that push overlaps out.
+const PUSH_SWEEPS: usize = 4;

@@ -1,0 +1,171 @@
+//! A manifold becomes a lane: the points' arms, masses and separations in the contact frame.
+
+use super::bundle::{Lane, field};
+use crate::collide::ContactPoint;
+use crate::material::Surface;
+use crate::math::{DMat3, DVec3, any_tangent};
+
+/// A body as a contact sees it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Side {
+    /// Centre of mass in the world, m.
+    pub center: DVec3,
+    /// 1/kg; 0 where nothing moves it.
+    pub inverse_mass: f64,
+    /// World axes; zero where nothing turns it.
+    pub inverse_inertia: DMat3,
+    /// Translation and turn `(x, y, z, w)` since the body's anchor.
+    pub drift: (DVec3, [f64; 4]),
+    /// Radius of curvature where the surface is round: the point of touch does not turn with it. m.
+    pub roundness: f64,
+}
+
+/// What decides how a contact is solved.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Terms {
+    pub surface: Surface,
+    /// Gap up to which two points count as touching, m.
+    pub margin: f64,
+}
+
+/// Impulses that a contact starts from.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Remembered {
+    /// Of each point, along the normal, N·s.
+    pub pressure: [f64; 4],
+    /// Across it, in the world, N·s.
+    pub friction: DVec3,
+    /// About it, N·m·s.
+    pub twist: f64,
+}
+
+/// Rows of the frame (t₁, t₂, n).
+struct Frame {
+    first: DVec3,
+    second: DVec3,
+    normal: DVec3,
+}
+
+impl Frame {
+    fn inward(&self, v: DVec3) -> DVec3 {
+        DVec3::new(v.dot(self.first), v.dot(self.second), v.dot(self.normal))
+    }
+
+    fn tensor(&self, world: &DMat3) -> [f64; 6] {
+        let (first, second, normal) = (*world * self.first, *world * self.second, *world * self.normal);
+        [
+            first.dot(self.first),
+            first.dot(self.second),
+            first.dot(self.normal),
+            second.dot(self.second),
+            second.dot(self.normal),
+            normal.dot(self.normal),
+        ]
+    }
+
+    /// As the kernel's `drift_of_arm`.
+    fn drift_of_arm(&self, [i, j, k, w]: [f64; 4]) -> DVec3 {
+        let turn = self.inward(DVec3::new(i, j, k));
+        let (x, y, z) = (turn.x, turn.y, turn.z);
+        2.0 * DVec3::new(x * z - w * y, y * z + w * x, -(x * x + y * y))
+    }
+}
+
+/// The lane of up to four points that share `normal`, from `a` to `b`.
+pub(crate) fn lane(
+    normal: DVec3,
+    points: &[ContactPoint],
+    sides: &[Side; 2],
+    terms: &Terms,
+    remembered: &Remembered,
+) -> Lane {
+    let first = any_tangent(normal);
+    let frame = Frame { first, second: normal.cross(first), normal };
+    let mut lane = [0.0; field::COUNT];
+    let mut put = |line: usize, value: f64| lane[line] = value as f32;
+    put_vector(&mut put, field::NORMAL, normal);
+    put_vector(&mut put, field::TANGENT, first);
+    let inertia = sides.map(|side| frame.tensor(&side.inverse_inertia));
+    for entry in 0..6 {
+        put(field::INVERSE_INERTIA_A + entry, inertia[0][entry]);
+        put(field::INVERSE_INERTIA_B + entry, inertia[1][entry]);
+    }
+    let inverse_mass = sides[0].inverse_mass + sides[1].inverse_mass;
+    let apart = normal.dot(sides[1].drift.0 - sides[0].drift.0);
+    let drifts = sides.map(|side| frame.drift_of_arm(side.drift.1));
+
+    let middle = middle(points, terms.margin);
+    for (index, contact) in points.iter().enumerate() {
+        let at = |line: usize| field::of_point(index, line);
+        let arms = sides.map(|side| frame.inward(contact.point - side.center));
+        // The part of each arm that turns with its body ends where the surface's centre of curvature is.
+        let turning = [arms[0] - sides[0].roundness * DVec3::Z, arms[1] + sides[1].roundness * DVec3::Z];
+        put_vector(&mut put, at(field::ARM_A), turning[0]);
+        put_vector(&mut put, at(field::ARM_B), turning[1]);
+        put(
+            at(field::BASE),
+            contact.separation - apart - drifts[1].dot(turning[1]) + drifts[0].dot(turning[0]),
+        );
+        let response = inverse_mass + about_normal(&inertia[0], arms[0]) + about_normal(&inertia[1], arms[1]);
+        put(at(field::MASS), inverse_of(response));
+        put(at(field::IMPULSE), remembered.pressure[index]);
+        put(at(field::LEVER), (contact.point - middle).length());
+        put(at(field::SEPARATION), contact.separation);
+    }
+
+    let arms = sides.map(|side| frame.inward(middle - side.center));
+    put_vector(&mut put, field::FRICTION_ARM_A, arms[0]);
+    put_vector(&mut put, field::FRICTION_ARM_B, arms[1]);
+    let response = tangent_response(inverse_mass, &inertia, &arms);
+    put(field::FRICTION_MASS, inverse_of(response));
+    put(field::FRICTION, remembered.friction.dot(frame.first));
+    put(field::FRICTION + 1, remembered.friction.dot(frame.second));
+    put(field::TWIST_MASS, inverse_of(inertia[0][5] + inertia[1][5]));
+    put(field::TWIST, remembered.twist);
+    put(field::STATIC_FRICTION, terms.surface.static_friction);
+    put(field::DYNAMIC_FRICTION, terms.surface.dynamic_friction);
+    let bounces = terms.surface.restitution > 0.0;
+    put(field::HORIZON, if bounces { terms.margin } else { f64::from(f32::MAX) });
+    lane
+}
+
+fn put_vector(put: &mut impl FnMut(usize, f64), line: usize, v: DVec3) {
+    put(line, v.x);
+    put(line + 1, v.y);
+    put(line + 2, v.z);
+}
+
+fn inverse_of(response: f64) -> f64 {
+    if response > 0.0 { 1.0 / response } else { 0.0 }
+}
+
+/// Where friction acts: the middle of the points, those that touch counting most.
+fn middle(points: &[ContactPoint], margin: f64) -> DVec3 {
+    let least = points.iter().map(|point| point.separation).fold(f64::INFINITY, f64::min);
+    let weight = |point: &ContactPoint| {
+        let nearness = margin / (margin + (point.separation - least.max(0.0)).max(0.0));
+        nearness * nearness
+    };
+    let total: f64 = points.iter().map(weight).sum();
+    let origin = points.first().map_or(DVec3::ZERO, |point| point.point);
+    let offset = |point: &ContactPoint| (weight(point) / total) * (point.point - origin);
+    origin + points.iter().map(offset).sum::<DVec3>()
+}
+
+/// `(r × n)·I⁻¹(r × n)` in the contact frame.
+fn about_normal([xx, xy, _, yy, ..]: &[f64; 6], arm: DVec3) -> f64 {
+    xx * arm.y * arm.y - 2.0 * xy * arm.x * arm.y + yy * arm.x * arm.x
+}
+
+/// The largest response to a unit impulse in the tangent plane: the larger eigenvalue of
+/// `K = (1/m_a + 1/m_b)·1 + Σ [r]ᵀI⁻¹[r]`, its upper left 2×2 block.
+fn tangent_response(inverse_mass: f64, inertia: &[[f64; 6]; 2], arms: &[DVec3; 2]) -> f64 {
+    let (mut k11, mut k12, mut k22) = (inverse_mass, 0.0, inverse_mass);
+    for ([xx, xy, xz, yy, yz, zz], r) in inertia.iter().zip(arms) {
+        k11 += yy * r.z * r.z - 2.0 * yz * r.y * r.z + zz * r.y * r.y;
+        k22 += xx * r.z * r.z - 2.0 * xz * r.x * r.z + zz * r.x * r.x;
+        k12 += yz * r.x * r.z - xy * r.z * r.z + xz * r.y * r.z - zz * r.x * r.y;
+    }
+    let difference = k11 - k22;
+    0.5 * (k11 + k22) + (0.25 * difference * difference + k12 * k12).sqrt()
+}

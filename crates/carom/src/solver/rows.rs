@@ -1,0 +1,134 @@
+//! Rows of numbers that the kernels gather: one for each body that rests on something.
+//!
+//! World positions are far too large for single precision, so that what is kept here is relative: velocities, and the motion
+//! since the body's *anchor*, the pose that it had when its contacts were last looked at closely.
+
+use super::lanes::{Row, WRITABLE};
+use crate::bodies::{Bodies, WORLD_ROW};
+use crate::math::{DVec3, Pose};
+
+/// All bodies' rows; row 0 is the world's.
+pub(crate) struct Rows {
+    /// Linear and angular velocity (m/s, rad/s), inverse mass, and whether anything can change them.
+    pub velocities: Vec<Row>,
+    /// Translation (m) and turn `(x, y, z, w)` since the anchor.
+    pub drifts: Vec<Row>,
+    /// Displacements that push overlaps out, laid out like velocities (m, rad).
+    pub displacements: Vec<Row>,
+    anchors: Vec<Pose>,
+    /// How many contacts the body has.
+    contacts: Vec<u32>,
+    /// The bodies that have any, ascending.
+    held: Vec<usize>,
+    held_is_stale: bool,
+}
+
+const UNTURNED: Row = Row([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0]);
+
+impl Rows {
+    pub fn new() -> Self {
+        let mut rows = Self {
+            velocities: Vec::new(),
+            drifts: Vec::new(),
+            displacements: Vec::new(),
+            anchors: Vec::new(),
+            contacts: Vec::new(),
+            held: Vec::new(),
+            held_is_stale: false,
+        };
+        rows.grow(1);
+        rows
+    }
+
+    /// Makes room for `count` rows.
+    pub fn grow(&mut self, count: usize) {
+        if count > self.contacts.len() {
+            self.velocities.resize(count, Row::ZERO);
+            self.drifts.resize(count, UNTURNED);
+            self.displacements.resize(count, Row::ZERO);
+            self.anchors.resize(count, Pose::IDENTITY);
+            self.contacts.resize(count, 0);
+        }
+    }
+
+    /// Takes a row out as `Vec::swap_remove` does.
+    pub fn swap_remove(&mut self, row: usize) {
+        if row < self.contacts.len() {
+            self.velocities.swap_remove(row);
+            self.drifts.swap_remove(row);
+            self.displacements.swap_remove(row);
+            self.anchors.swap_remove(row);
+            self.contacts.swap_remove(row);
+            self.held_is_stale = true;
+        }
+    }
+
+    /// The bodies that have contacts, ascending.
+    pub fn held(&mut self) -> &[usize] {
+        if self.held_is_stale {
+            let rows = self.contacts.iter().enumerate().skip(1);
+            self.held = rows.filter(|(_, count)| **count > 0).map(|(row, _)| row).collect();
+            self.held_is_stale = false;
+        }
+        &self.held
+    }
+
+    pub fn is_held(&self, row: usize) -> bool {
+        self.contacts.get(row).is_some_and(|&count| count > 0)
+    }
+
+    /// Counts one more contact of a body.
+    pub fn hold(&mut self, row: usize) {
+        if row != WORLD_ROW {
+            self.contacts[row] += 1;
+            self.held_is_stale |= self.contacts[row] == 1;
+        }
+    }
+
+    /// Counts one contact less.
+    pub fn let_go(&mut self, row: usize) {
+        if row != WORLD_ROW {
+            self.contacts[row] -= 1;
+            self.held_is_stale |= self.contacts[row] == 0;
+        }
+    }
+
+    /// Reads a body's velocity, with `gain` (m/s, rad/s) added.
+    pub fn read_velocity(&mut self, bodies: &Bodies, row: usize, gain: [DVec3; 2]) {
+        let (state, constants) = (&bodies.states[row], &bodies.constants[row]);
+        let writable = constants.is_movable() && !bodies.is_asleep(row);
+        let linear = (state.velocity + gain[0]).as_vec3();
+        let angular = (constants.angular_velocity(state) + gain[1]).as_vec3();
+        let inverse_mass = if writable { constants.inverse_mass as f32 } else { 0.0 };
+        let mut values =
+            [linear.x, linear.y, linear.z, angular.x, angular.y, angular.z, inverse_mass, 0.0];
+        values[WRITABLE] = f32::from(writable);
+        self.velocities[row] = Row(values);
+    }
+
+    /// A body is where its contacts are looked at.
+    pub fn anchor(&mut self, bodies: &Bodies, row: usize) {
+        if row != WORLD_ROW {
+            let state = &bodies.states[row];
+            self.anchors[row] = Pose::new(state.position, state.rotation);
+            self.drifts[row] = UNTURNED;
+        }
+    }
+
+    /// Reads how far a body is from its anchor; the larger of the distance as a share of `reach` and the sine of half the angle.
+    pub fn read_drift(&mut self, bodies: &Bodies, row: usize, reach: f64) -> f64 {
+        let (state, anchor) = (&bodies.states[row], &self.anchors[row]);
+        let moved = state.position - anchor.position;
+        let turn = state.rotation * anchor.rotation.conjugate();
+        let (linear, turned) = (moved.as_vec3(), turn.as_quat());
+        self.drifts[row] = Row([linear.x, linear.y, linear.z, turned.x, turned.y, turned.z, turned.w, 0.0]);
+        let sine = turn.x * turn.x + turn.y * turn.y + turn.z * turn.z;
+        (moved.length_squared() / (reach * reach)).max(sine).sqrt()
+    }
+
+    /// The drift of a body, as the kernels see it.
+    pub fn drift(&self, row: usize) -> (DVec3, [f64; 4]) {
+        let [x, y, z, i, j, k, w, _] = self.drifts[row].0.map(f64::from);
+        (DVec3::new(x, y, z), [i, j, k, w])
+    }
+}
