@@ -236,9 +236,8 @@ impl Bodies {
         self.influences.push(Influence::default());
         self.clocks.push(0.0);
         self.ways.push((0.0, 0.0));
-        let reach = |collider: &Collider| {
-            collider.shape.reach(collider.pose.inverse_transform_point(mass.center))
-        };
+        let reach =
+            |collider: &Collider| collider.shape.reach(collider.pose.inverse_transform_point(mass.center));
         self.grains.push(description.colliders.iter().map(reach).fold(f64::INFINITY, f64::min));
         self.paces.push((0.0, 0.0));
         self.forces.push((DVec3::ZERO, DVec3::ZERO));

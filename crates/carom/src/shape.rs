@@ -113,7 +113,11 @@ impl Shape {
                 DVec3::new(point.x, 0.0, point.z).length() / across
             }
             Shape::TaperedCapsule { height, radius_bottom, radius_top } => {
-                if point.y > 0.5 * height { radius_top } else { radius_bottom }
+                if point.y > 0.5 * height {
+                    radius_top
+                } else {
+                    radius_bottom
+                }
             }
             _ => 0.0,
         }

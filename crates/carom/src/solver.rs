@@ -5,12 +5,14 @@
 //! bundle.rs    contacts in the layout they are solved in
 //! contact.rs   the arithmetic: measure, begin, sweep
 //! prepare.rs   a manifold becomes a lane
+//! direct.rs    small stiff islands, solved at once
 //! graph.rs     all contacts of a world: colours, islands, sweeps until they agree
 //! rows.rs      velocities and motions of the bodies, as the kernels read them
 //! ```
 
 pub(crate) mod bundle;
 pub(crate) mod contact;
+pub(crate) mod direct;
 pub(crate) mod graph;
 pub(crate) mod lanes;
 pub(crate) mod prepare;

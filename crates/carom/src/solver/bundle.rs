@@ -34,14 +34,15 @@ pub(crate) mod field {
     /// Coulomb's coefficients.
     pub const STATIC_FRICTION: usize = 29;
     pub const DYNAMIC_FRICTION: usize = 30;
-    /// Gap up to which a point counts at all: infinite, but for contacts that bounce. m.
+    /// Gap up to which a point counts at all: what comes from further away strikes. m.
     pub const HORIZON: usize = 31;
     /// How far the last sweep has changed a velocity, m/s.
     pub const RESIDUAL: usize = 32;
-    /// The least separation of all points, m.
+    /// The least and the largest separation of all points, m.
     pub const GAP: usize = 33;
+    pub const WIDEST: usize = 34;
     /// The first point's lines; each further point [`POINT_LINES`] further.
-    pub const POINT: usize = 34;
+    pub const POINT: usize = 35;
 
     /// Of a point: arm of `a` (x, y, and z of what turns with the body), then of `b`.
     pub const ARM_A: usize = 0;
@@ -59,6 +60,28 @@ pub(crate) mod field {
     /// Separation at the start of the substep, m.
     pub const SEPARATION: usize = 11;
     pub const POINT_LINES: usize = 12;
+
+    /// Impulses of a contact: of its points along the normal, friction, twist.
+    pub const ROWS: usize = super::POINTS + 3;
+    pub const IMPULSES: [usize; ROWS] = [
+        of_point(0, IMPULSE),
+        of_point(1, IMPULSE),
+        of_point(2, IMPULSE),
+        of_point(3, IMPULSE),
+        FRICTION,
+        FRICTION + 1,
+        TWIST,
+    ];
+    /// 1 / the response to each of them.
+    pub const MASSES: [usize; ROWS] = [
+        of_point(0, MASS),
+        of_point(1, MASS),
+        of_point(2, MASS),
+        of_point(3, MASS),
+        FRICTION_MASS,
+        FRICTION_MASS,
+        TWIST_MASS,
+    ];
 
     /// Lines of a bundle.
     pub const COUNT: usize = POINT + super::POINTS * POINT_LINES;
@@ -108,7 +131,8 @@ impl Bundle {
     }
 
     fn count_points(&mut self) {
-        let has = |point: usize| self.lines[field::of_point(point, field::MASS)].0.iter().any(|&mass| mass > 0.0);
+        let has =
+            |point: usize| self.lines[field::of_point(point, field::MASS)].0.iter().any(|&mass| mass > 0.0);
         self.points = (0..POINTS).rev().find(|&point| has(point)).map_or(0, |point| point + 1);
     }
 }

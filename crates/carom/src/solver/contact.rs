@@ -14,7 +14,7 @@
 //! *Books*: each impulse acts on both bodies, reversed on one; linear and angular momentum are kept to rounding.
 
 use super::bundle::{Bundle, field};
-use super::lanes::{LANES, Lanes, Row, Tensor, Vector};
+use super::lanes::{LANES, Lanes, Line, Row, Tensor, Vector};
 
 /// The contact frame of each lane.
 struct Frame<L> {
@@ -104,8 +104,7 @@ impl<L: Lanes> Pair<L> {
         let spin_a = frame.outward(self.inverse_inertia_a.times(turn_a));
         let spin_b = frame.outward(self.inverse_inertia_b.times(turn_b));
         let (a, b) = (self.a, self.b);
-        let (linear_a, linear_b) =
-            (linear(&a) - impulse.scaled(a[6]), linear(&b) + impulse.scaled(b[6]));
+        let (linear_a, linear_b) = (linear(&a) - impulse.scaled(a[6]), linear(&b) + impulse.scaled(b[6]));
         let (angular_a, angular_b) = (angular(&a) - spin_a, angular(&b) + spin_b);
         [
             [linear_a.x, linear_a.y, linear_a.z, angular_a.x, angular_a.y, angular_a.z, a[6], a[7]],
@@ -138,7 +137,7 @@ pub(crate) fn measure<L: Lanes>(bundle: &mut Bundle, drifts: &[Row]) {
         let drift_b = L::gather(drifts, indices(&bundle.b, part, L::WIDTH));
         let apart = (linear(&drift_b) - linear(&drift_a)).dot(frame.normal);
         let (turn_a, turn_b) = (drift_of_arm(&frame, &drift_a), drift_of_arm(&frame, &drift_b));
-        let mut gap = L::splat(f32::MAX);
+        let (mut gap, mut widest) = (L::splat(f32::MAX), L::splat(f32::MIN));
         for point in 0..bundle.points {
             let at = |line: usize| field::of_point(point, line);
             let arm_a = vector::<L>(bundle, at(field::ARM_A), part);
@@ -148,45 +147,65 @@ pub(crate) fn measure<L: Lanes>(bundle: &mut Bundle, drifts: &[Row]) {
             separation.store(&mut bundle.lines[at(field::SEPARATION)], part);
             let real = line::<L>(bundle, at(field::MASS), part);
             gap = L::select_greater(real, L::splat(0.0), [gap.min(separation), gap]);
+            widest = L::select_greater(real, L::splat(0.0), [widest.max(separation), widest]);
         }
+        widest.store(&mut bundle.lines[field::WIDEST], part);
         gap.store(&mut bundle.lines[field::GAP], part);
     }
 }
 
 /// Starts a substep: what each point asks for, and the impulses of the substep before, which act again.
 ///
-/// A point may close as far as its gap lets it in `1/rate` seconds.
+/// A point within its horizon closes its gap (or leaves its overlap, up to `deepest`) at `rate` (1/s) times it: slowly, as a gap closed
+/// at once would ask for a velocity that the next substep has to stop, and a stack would rock on that for ever.
 #[inline(always)]
-pub(crate) fn begin<L: Lanes>(bundle: &mut Bundle, velocities: &mut [Row], rate: f32) {
+pub(crate) fn begin<L: Lanes>(bundle: &mut Bundle, velocities: &mut [Row], [rate, deepest]: [f32; 2]) {
     for part in 0..LANES / L::WIDTH {
         let horizon = line::<L>(bundle, field::HORIZON, part);
-        let (zero, never) = (L::splat(0.0), L::splat(-1e30));
-        let mut impulse = Vector::new(zero, zero, zero);
-        let mut turns = [impulse; 2];
+        let never = L::splat(-1e30);
         for point in 0..bundle.points {
             let at = |line: usize| field::of_point(point, line);
             let separation = line::<L>(bundle, at(field::SEPARATION), part);
-            let least = zero - separation.max(zero) * L::splat(rate);
+            let least = separation.max(L::splat(-deepest)) * L::splat(-rate);
             let least = L::select_greater(separation, horizon, [never, least]);
             least.store(&mut bundle.lines[at(field::LEAST)], part);
-
-            let pressure = line::<L>(bundle, at(field::IMPULSE), part);
-            let arm_a = vector::<L>(bundle, at(field::ARM_A), part);
-            let arm_b = vector::<L>(bundle, at(field::ARM_B), part);
-            impulse.z = impulse.z + pressure;
-            turns[0] = turns[0] + Vector::new(arm_a.y * pressure, -(arm_a.x * pressure), zero);
-            turns[1] = turns[1] + Vector::new(arm_b.y * pressure, -(arm_b.x * pressure), zero);
         }
-        impulse.x = line(bundle, field::FRICTION, part);
-        impulse.y = line(bundle, field::FRICTION + 1, part);
-        let across = Vector::new(impulse.x, impulse.y, zero);
-        let twist = Vector::new(zero, zero, line(bundle, field::TWIST, part));
-        turns[0] = turns[0] + vector(bundle, field::FRICTION_ARM_A, part).cross(across) + twist;
-        turns[1] = turns[1] + vector(bundle, field::FRICTION_ARM_B, part).cross(across) + twist;
-        let frame = Frame::<L>::load(bundle, part);
-        let pushed = Pair::gather(bundle, velocities, part).push(&frame, impulse, turns);
-        scatter(bundle, pushed, velocities, part);
+        let impulses = field::IMPULSES.map(|impulse| line(bundle, impulse, part));
+        apply::<L>(bundle, velocities, &impulses, part);
     }
+}
+
+/// Adds `changes` to the impulses, whether or not contacts can exert them: the next sweep sees to that.
+#[inline(always)]
+pub(crate) fn nudge<L: Lanes>(bundle: &mut Bundle, velocities: &mut [Row], changes: &[Line; field::ROWS]) {
+    for part in 0..LANES / L::WIDTH {
+        let changes = changes.map(|change| L::load(&change, part));
+        for (impulse, change) in field::IMPULSES.into_iter().zip(changes) {
+            (line::<L>(bundle, impulse, part) + change).store(&mut bundle.lines[impulse], part);
+        }
+        apply::<L>(bundle, velocities, &changes, part);
+    }
+}
+
+/// Lets impulses, in the order of [`field::IMPULSES`], act on both bodies.
+#[inline(always)]
+fn apply<L: Lanes>(bundle: &Bundle, velocities: &mut [Row], impulses: &[L; field::ROWS], part: usize) {
+    let [first, second, third, fourth, x, y, twist] = *impulses;
+    let zero = L::splat(0.0);
+    let across = Vector::new(x, y, zero);
+    let twist = Vector::new(zero, zero, twist);
+    let mut turn_a = vector(bundle, field::FRICTION_ARM_A, part).cross(across) + twist;
+    let mut turn_b = vector(bundle, field::FRICTION_ARM_B, part).cross(across) + twist;
+    let pressures = [first, second, third, fourth];
+    for (point, pressure) in pressures.into_iter().enumerate().take(bundle.points) {
+        let along = Vector::new(zero, zero, pressure);
+        turn_a = turn_a + vector(bundle, field::of_point(point, field::ARM_A), part).cross(along);
+        turn_b = turn_b + vector(bundle, field::of_point(point, field::ARM_B), part).cross(along);
+    }
+    let impulse = Vector::new(x, y, (first + second) + (third + fourth));
+    let frame = Frame::<L>::load(bundle, part);
+    let pushed = Pair::gather(bundle, velocities, part).push(&frame, impulse, [turn_a, turn_b]);
+    scatter(bundle, pushed, velocities, part);
 }
 
 /// One sweep over a bundle: each point, then the twist, then friction.
@@ -266,8 +285,10 @@ impl<L: Lanes> Motion<L> {
     #[inline(always)]
     fn solve_normal(&mut self, bundle: &mut Bundle, pair: &Pair<L>, (point, part): (usize, usize)) {
         let at = |line: usize| field::of_point(point, line);
-        let (a_x, a_y) = (line::<L>(bundle, at(field::ARM_A), part), line::<L>(bundle, at(field::ARM_A + 1), part));
-        let (b_x, b_y) = (line::<L>(bundle, at(field::ARM_B), part), line::<L>(bundle, at(field::ARM_B + 1), part));
+        let (a_x, a_y) =
+            (line::<L>(bundle, at(field::ARM_A), part), line::<L>(bundle, at(field::ARM_A + 1), part));
+        let (b_x, b_y) =
+            (line::<L>(bundle, at(field::ARM_B), part), line::<L>(bundle, at(field::ARM_B + 1), part));
         let velocity = self.relative.z + (self.spin_b.x * b_y - self.spin_b.y * b_x)
             - (self.spin_a.x * a_y - self.spin_a.y * a_x);
         let mass = line::<L>(bundle, at(field::MASS), part);

@@ -32,12 +32,7 @@ pub(crate) const WRITABLE: usize = 7;
 
 /// Several numbers in step.
 pub(crate) trait Lanes:
-    Copy
-    + Add<Output = Self>
-    + Sub<Output = Self>
-    + Mul<Output = Self>
-    + Div<Output = Self>
-    + Neg<Output = Self>
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
 {
     /// How many; divides [`LANES`].
     const WIDTH: usize;

@@ -124,8 +124,7 @@ pub(crate) fn lane(
     put(field::TWIST, remembered.twist);
     put(field::STATIC_FRICTION, terms.surface.static_friction);
     put(field::DYNAMIC_FRICTION, terms.surface.dynamic_friction);
-    let bounces = terms.surface.restitution > 0.0;
-    put(field::HORIZON, if bounces { terms.margin } else { f64::from(f32::MAX) });
+    put(field::HORIZON, terms.margin);
     lane
 }
 

@@ -100,8 +100,7 @@ impl Rows {
         let linear = (state.velocity + gain[0]).as_vec3();
         let angular = (constants.angular_velocity(state) + gain[1]).as_vec3();
         let inverse_mass = if writable { constants.inverse_mass as f32 } else { 0.0 };
-        let mut values =
-            [linear.x, linear.y, linear.z, angular.x, angular.y, angular.z, inverse_mass, 0.0];
+        let mut values = [linear.x, linear.y, linear.z, angular.x, angular.y, angular.z, inverse_mass, 0.0];
         values[WRITABLE] = f32::from(writable);
         self.velocities[row] = Row(values);
     }

@@ -6,9 +6,9 @@
 
 use crate::bodies::{Bodies, ColliderRow, WORLD_ROW};
 use crate::flight::fly_center;
-use crate::step::events::CLAIM;
 use crate::math::{DVec3, Pose};
 use crate::shape::Shape;
+use crate::step::events::CLAIM;
 use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::partitioning::{Bvh, BvhWorkspace};
 

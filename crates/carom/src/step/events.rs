@@ -5,9 +5,9 @@
 //! threshold is handed to [`rest`](super::rest). Bodies keep clocks of their own: only those that a touch concerns are
 //! advanced to it. What flies freely has one path for the whole step; what contacts hold gets a new one in each substep.
 //!
-//! Who owns a touch: a pair that rests belongs to the contacts. It comes back here only where one of its points is struck:
-//! where it bounces and a point closes faster than the rest threshold, or where a collision drives it into its neighbour
-//! further than a contact can be left to deal with.
+//! Who owns a touch: a pair that rests belongs to the contacts. It comes back here only where one of its points strikes: a
+//! corner that comes from further away than contacts reach, faster than the rest threshold; or a point that a collision has
+//! set in motion, if it bounces or would go further than contacts can be left to deal with.
 //!
 //! Order: by time, then by bodies and colliders; so the same scene gives the same bits.
 
@@ -112,7 +112,7 @@ impl<'a> Events<'a> {
         let mut index = 0;
         while index < self.pairs.len() {
             let pair = &self.pairs[index];
-            let is_quiet = pair.rests && pair.surface.restitution == 0.0;
+            let is_quiet = pair.rests && self.rest.is_closed(pair, self.law);
             if pair.now.asked_until < span.until && !pair.sensor && !is_quiet {
                 self.ask(index, span);
             }

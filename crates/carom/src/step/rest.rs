@@ -17,6 +17,7 @@ use crate::flight::Influence;
 use crate::impacts::time_of_impact::{Approach, RestLaw};
 use crate::math::{DMat3, DVec3, rotation_from_vector};
 use crate::solver::bundle::field;
+use crate::solver::direct::Mobility;
 use crate::solver::graph::{Effort, Graph};
 use crate::solver::lanes::Row;
 use crate::solver::prepare::{Remembered, Side, Terms, lane};
@@ -29,12 +30,17 @@ use crate::step::pairs::{Pair, Pairs, Support};
 const DRIFT: f64 = 1e-3;
 const DRIFT_WITHIN: f64 = 2e-2;
 
-/// Velocities agree when a sweep changes them by no more than this share of what gravity does in a substep.
+/// Velocities agree when a sweep changes them by no more than this share of what gravity does in a substep; those of small
+/// islands, which are solved directly, when nothing is further off than the second.
 const AGREEMENT: f64 = 1e-3;
+const EXACTNESS: f64 = 1e-5;
 
 /// Sweeps that every contact gets in a substep, and contacts times sweeps that an island may take.
 const SWEEPS: u32 = 2;
 const BUDGET: u32 = 40_000;
+
+/// Share of a gap within the contact margin that is closed in a substep.
+const CLOSING: f64 = 0.1;
 
 /// Share of an overlap that is pushed out at the end of a step, and of the contact margin that is left.
 const PUSH_OUT: f32 = 0.5;
@@ -75,7 +81,7 @@ impl Rest {
         }
     }
 
-    /// Forgets the contacts of a pair.
+    /// Lets go of the contacts of a pair.
     pub fn drop_contacts(&mut self, pair: &Pair) {
         for support in &pair.supports {
             self.release(support);
@@ -140,7 +146,8 @@ impl Rest {
 
     /// Looks at a pair closely: new geometry, old impulses. A pair that is out of reach rests no more.
     fn renew(&mut self, bodies: &Bodies, pair: &mut Pair, (law, span): (RestLaw, Span)) {
-        let (Some(a), Some(b)) = (bodies.collider(pair.colliders.0), bodies.collider(pair.colliders.1)) else {
+        let (Some(a), Some(b)) = (bodies.collider(pair.colliders.0), bodies.collider(pair.colliders.1))
+        else {
             return;
         };
         let margin = law.contact_margin();
@@ -163,7 +170,11 @@ impl Rest {
             Side {
                 center: center.position,
                 inverse_mass: constants.inverse_mass,
-                inverse_inertia: if movable { constants.inverse_inertia(center.rotation) } else { DMat3::ZERO },
+                inverse_inertia: if movable {
+                    constants.inverse_inertia(center.rotation)
+                } else {
+                    DMat3::ZERO
+                },
                 drift: self.rows.drift(collider.row),
                 roundness: collider.shape.roundness(local.0, local.1),
             }
@@ -211,7 +222,8 @@ impl Rest {
             let features = (point.feature_a, point.feature_b);
             for support in old {
                 if let Some(index) = support.features().iter().position(|&it| it == features) {
-                    *entry = f64::from(self.graph.get(support.contact, field::of_point(index, field::IMPULSE)));
+                    *entry =
+                        f64::from(self.graph.get(support.contact, field::of_point(index, field::IMPULSE)));
                     matched = true;
                     break;
                 }
@@ -227,8 +239,7 @@ impl Rest {
         let read = |field: usize| f64::from(self.graph.get(support.contact, field));
         let axis = |field: usize| DVec3::new(read(field), read(field + 1), read(field + 2));
         let (first, normal) = (axis(field::TANGENT), axis(field::NORMAL));
-        remembered.friction =
-            first * read(field::FRICTION) + normal.cross(first) * read(field::FRICTION + 1);
+        remembered.friction = first * read(field::FRICTION) + normal.cross(first) * read(field::FRICTION + 1);
         remembered.twist = read(field::TWIST);
         if !matched {
             let count = support.features().len();
@@ -280,19 +291,17 @@ impl Rest {
     /// Lets go of pairs whose every point is further apart than the contact margin.
     fn let_part(&mut self, pairs: &mut Pairs, law: RestLaw) {
         let margin = law.contact_margin() as f32;
-        for &index in &self.resting {
+        let resting = std::mem::take(&mut self.resting);
+        for &index in &resting {
             let gap = |support: &Support| self.graph.get(support.contact, field::GAP);
             let pair = &mut pairs[index];
             if pair.supports.iter().all(|support| gap(support) > margin) {
+                self.drop_contacts(pair);
                 pair.rests = false;
-                for support in std::mem::take(&mut pair.supports) {
-                    for row in self.graph.rows(support.contact) {
-                        self.rows.let_go(row as usize);
-                    }
-                    self.graph.remove(support.contact);
-                }
+                pair.supports.clear();
             }
         }
+        self.resting = resting;
         self.resting.retain(|&index| pairs[index].rests);
     }
 
@@ -312,11 +321,19 @@ impl Rest {
             self.rows.read_velocity(bodies, row, gain);
             gains.push((gain, free.torque * substep, self.rows.velocities[row]));
         }
-        self.graph.begin(&mut self.rows.velocities, substep);
+        let closing = [CLOSING / substep, LEFT_IN * law.contact_margin()].map(|value| value as f32);
+        self.graph.begin(&mut self.rows.velocities, closing);
         let persisting: Vec<Row> = held.iter().map(|&row| self.rows.velocities[row]).collect();
         let agreement = (AGREEMENT * law.gravity.length() * substep).max(1e-7) as f32;
-        let effort = Effort { agreement, sweeps: SWEEPS, budget: BUDGET };
-        self.graph.solve(&mut self.rows.velocities, effort, |row| bodies.constants[row].is_movable());
+        let exactness = (EXACTNESS * law.gravity.length() * substep).max(1e-7) as f32;
+        let effort = Effort { agreement, exactness, sweeps: SWEEPS, budget: BUDGET };
+        self.graph.solve(&mut self.rows.velocities, effort, |row| {
+            let (state, constants) = (&bodies.states[row as usize], &bodies.constants[row as usize]);
+            constants.is_movable().then(|| Mobility {
+                inverse_mass: constants.inverse_mass,
+                inverse_inertia: constants.inverse_inertia(state.rotation),
+            })
+        });
 
         for ((&row, (gain, turn, before)), warm) in held.iter().zip(gains).zip(persisting) {
             if !bodies.constants[row].is_movable() || bodies.is_asleep(row) {
@@ -327,8 +344,8 @@ impl Rest {
             let inertia = bodies.constants[row].inertia(bodies.states[row].rotation);
             let change = [gain[0] + linear, turn + inertia * angular];
             let sudden = difference(&after, &warm);
-            let steady = sudden[0].length().max(sudden[1].length() * bodies.grains[row])
-                <= STEADY * gain[0].length();
+            let steady =
+                sudden[0].length().max(sudden[1].length() * bodies.grains[row]) <= STEADY * gain[0].length();
             follow(bodies, row, change, (substep, steady));
             set_pace(bodies, row, span.until);
         }
@@ -368,19 +385,22 @@ impl Rest {
         self.resting.iter().map(|&index| &pairs[index]).filter(move |pair| pair.supports.iter().any(touches))
     }
 
-    /// Whether a point of a pair that rests will be driven into the other body, in the time left of a substep, further than
-    /// contacts can be left to deal with.
+    /// Whether all points of a pair that rests are so near that the contacts have them all.
+    pub fn is_closed(&self, pair: &Pair, law: RestLaw) -> bool {
+        let margin = law.contact_margin() as f32;
+        pair.supports.iter().all(|support| self.graph.get(support.contact, field::WIDEST) <= margin)
+    }
+
+    /// Whether a point of a pair that rests will strike in the time left of a substep: one that comes from further away than
+    /// contacts reach, or one that a collision has set in motion.
     pub fn is_driven(&self, bodies: &Bodies, pair: &Pair, law: RestLaw, span: Span) -> bool {
-        let left = span.until - span.from;
-        let centers = pair.rows.map(|row| bodies.states[row].position);
+        let (margin, left) = (law.contact_margin(), span.until - span.from);
         let grain = bodies.grains[pair.rows[0]].min(bodies.grains[pair.rows[1]]);
-        let bounces = pair.surface.restitution > 0.0;
-        let slowest = if bounces { law.drift_speed() } else { PRESSED * grain / law.substep };
+        let pressed = if pair.surface.restitution > 0.0 { 0.0 } else { PRESSED * grain / law.substep };
         let motion = pair.rows.map(|row| {
             let state = &bodies.states[row];
             (state.velocity, bodies.constants[row].angular_velocity(state))
         });
-        let _ = centers;
         pair.supports.iter().any(|support| {
             let get = |field: usize| f64::from(self.graph.get(support.contact, field));
             let axis = |field: usize| DVec3::new(get(field), get(field + 1), get(field + 2));
@@ -395,6 +415,7 @@ impl Rest {
                 let speed = relative + (spin_b.x * arm_b.y - spin_b.y * arm_b.x)
                     - (spin_a.x * arm_a.y - spin_a.y * arm_a.x);
                 let gap = get(at(field::SEPARATION));
+                let slowest = if gap > margin { law.drift_speed() } else { law.drift_speed().max(pressed) };
                 speed < -slowest && gap + speed * left < 0.0
             })
         })
