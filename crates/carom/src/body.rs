@@ -236,9 +236,11 @@ impl Body {
         }
         for (index, collider) in self.colliders.iter().enumerate() {
             collider.check().map_err(|error| error.within(&format!("colliders[{index}]")))?;
-            if self.motion != Motion::Fixed && matches!(collider.shape, Shape::Plane) {
+            if self.motion != Motion::Fixed
+                && let Some(name) = collider.shape.only_fixed()
+            {
                 let field = format!("colliders[{index}].shape");
-                return Err(Invalid::new(field, "plane", "a shape with bounds, or a static body"));
+                return Err(Invalid::new(field, name, "another shape, or a static body"));
             }
         }
         if self.motion == Motion::Dynamic { BodyMass::of(self).map(|_| ()) } else { Ok(()) }

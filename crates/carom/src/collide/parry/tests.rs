@@ -78,7 +78,7 @@ fn farthest(shape: &Shape, pose: &Pose, direction: DVec3) -> DVec3 {
             vec![y(0.5 * height) + rim * *radius_top, y(-0.5 * height) + rim * *radius_bottom]
         }
         Shape::Hull(hull) => hull.vertices().to_vec(),
-        Shape::Plane | Shape::Mesh(_) => unreachable!("no farthest point"),
+        Shape::Plane | Shape::Mesh(_) | Shape::HeightField(_) => unreachable!("no farthest point"),
     };
     let best = points.into_iter().max_by(|one, other| one.dot(local).total_cmp(&other.dot(local)));
     pose.transform_point(best.unwrap())
