@@ -202,7 +202,8 @@ impl HeightField {
 
     /// Where the heights of a column or row stand, m.
     fn coordinate(&self, axis: usize, index: usize) -> f64 {
-        (index as f64 / self.cells(axis) as f64 - 0.5) * self.size[axis]
+        let cells = self.cells(axis) as f64;
+        ((2 * index) as f64 - cells) / (2.0 * cells) * self.size[axis]
     }
 
     /// The columns or rows of cells that have something in common with the stretch from `low` to `high` (m).

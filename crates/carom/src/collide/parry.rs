@@ -137,10 +137,8 @@ fn convex_manifold(
         return None;
     }
     let normal = surface.map_or(least.normal, |surface| (surface.correct)(least.normal));
-    let corrected = normal != least.normal;
-    if corrected {
-        least = axis::Axis { normal, ..least };
-    }
+    let corrected = normal.distance(least.normal) > 1e-9;
+    least.normal = normal;
     let mut candidates = Candidates::new(margin);
     clip::contacts(convex_a, convex_b, &inner, normal, &mut candidates);
     let size = convex_a.core.reach().min(convex_b.core.reach()).max(radii);

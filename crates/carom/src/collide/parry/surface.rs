@@ -8,6 +8,7 @@ use crate::collide::{ContactPoint, Manifold};
 use crate::math::{DVec3, Pose};
 use crate::report::Feature;
 use crate::shape::Shape;
+use std::cell::Cell;
 
 fn triangle_core(surface: &dyn Triangles, index: u32) -> Convex<'static> {
     let (corners, vertices) = (surface.corners(index), surface.corner_numbers(index));
@@ -119,35 +120,82 @@ pub(super) fn manifolds(
     margin: f64,
     out: &mut Vec<Manifold>,
 ) {
+    let (low, high) = other.0.bounds(&pose.relative(other.1));
+    let near = nearby(surface, low, high, margin);
+    match (Convex::of(other.0), triangles_of(other.0)) {
+        (Some(convex), _) => convex_manifolds((surface, pose), (&convex, other.1), &near, margin, out),
+        (None, Some(other_surface)) => {
+            surface_manifolds((surface, pose), (other_surface, other.1), &near, margin, out);
+        }
+        (None, None) => {}
+    }
+}
+
+/// The manifolds of the triangles `near` with a convex shape.
+///
+/// Where their corrections leave nothing of a touch (on a tip between ridges and valleys, or deep in a border), the triangle
+/// that is deepest in has it along its own shortest way out.
+fn convex_manifolds(
+    (surface, pose): (&dyn Triangles, &Pose),
+    (convex, other_pose): (&Convex, &Pose),
+    near: &[u32],
+    margin: f64,
+    out: &mut Vec<Manifold>,
+) {
     let first = out.len();
-    let inner = pose.relative(other.1);
-    let (low, high) = other.0.bounds(&inner);
+    let inner = pose.relative(other_pose);
+    let middle = inner.transform_point(convex.core.middle());
     // Rounding must not turn away what is just near enough.
-    let slack = 1e-9 * (high - low).max_element();
-    for index in nearby(surface, low, high, margin) {
+    let slack = 1e-9 * (convex.core.reach() + convex.radius);
+    let mut touched = Vec::new();
+    for &index in near {
         let triangle = triangle_core(surface, index);
-        match (Convex::of(other.0), triangles_of(other.0)) {
-            (Some(convex), _) => {
-                if gap_at_least(&triangle, &convex, &inner) > margin + slack {
-                    continue;
-                }
-                let middle = inner.transform_point(convex.core.middle());
-                let correct = |normal: DVec3| surface_normal(surface, index, normal, middle);
-                let around = OnSurface { correct: &correct, known: &out[first..] };
-                let found = convex_manifold((&triangle, pose), (&convex, other.1), margin, Some(&around));
-                out.extend(found);
-            }
-            (None, Some(other_surface)) => {
-                let (low, high) = triangle_bounds(surface, index, &other.1.relative(pose));
-                for other_index in nearby(other_surface, low, high, margin) {
-                    let other_triangle = triangle_core(other_surface, other_index);
-                    let around = OnSurface { correct: &|normal| normal, known: &out[first..] };
-                    let other_triangle = (&other_triangle, other.1);
-                    let found = convex_manifold((&triangle, pose), other_triangle, margin, Some(&around));
-                    out.extend(found);
-                }
-            }
-            (None, None) => {}
+        if gap_at_least(&triangle, convex, &inner) > margin + slack {
+            continue;
+        }
+        // Whoever asks for the normal has found the two within the margin.
+        let touches = Cell::new(false);
+        let correct = |normal: DVec3| {
+            touches.set(true);
+            surface_normal(surface, index, normal, middle)
+        };
+        let around = OnSurface { correct: &correct, known: &out[first..] };
+        let found = convex_manifold((&triangle, pose), (convex, other_pose), margin, Some(&around));
+        out.extend(found);
+        if touches.get() {
+            touched.push(index);
+        }
+    }
+    if out.len() > first {
+        return;
+    }
+    let gap = |index: u32| axis::least_gap(&triangle_core(surface, index).core, &convex.core, &inner).gap;
+    let gaps = touched.into_iter().map(|index| (gap(index), index));
+    if let Some((_, deepest)) = gaps.min_by(|one, other| one.0.total_cmp(&other.0)) {
+        let triangle = triangle_core(surface, deepest);
+        out.extend(convex_manifold((&triangle, pose), (convex, other_pose), margin, None));
+    }
+}
+
+/// The manifolds of the triangles `near` with those of another surface, each by its own shortest way out.
+fn surface_manifolds(
+    (surface, pose): (&dyn Triangles, &Pose),
+    (other, other_pose): (&dyn Triangles, &Pose),
+    near: &[u32],
+    margin: f64,
+    out: &mut Vec<Manifold>,
+) {
+    let first = out.len();
+    let turned = other_pose.relative(pose);
+    for &index in near {
+        let triangle = triangle_core(surface, index);
+        let (low, high) = triangle_bounds(surface, index, &turned);
+        for other_index in nearby(other, low, high, margin) {
+            let other_triangle = triangle_core(other, other_index);
+            let around = OnSurface { correct: &|normal| normal, known: &out[first..] };
+            let found =
+                convex_manifold((&triangle, pose), (&other_triangle, other_pose), margin, Some(&around));
+            out.extend(found);
         }
     }
 }
@@ -157,14 +205,16 @@ fn triangle_bounds(surface: &dyn Triangles, index: u32, pose: &Pose) -> (DVec3, 
     (corners[0].min(corners[1]).min(corners[2]), corners[0].max(corners[1]).max(corners[2]))
 }
 
-/// The normal that the surface allows a contact on this triangle: `normal`, the triangle's own, or the neighbour's.
+/// The normal that the surface allows a contact on this triangle: `normal`, the triangle's own, the neighbour's, or one
+/// between them.
 ///
 /// Over the side that a triangle shares with a neighbour, the shortest way out of the triangle may lead sideways, into
 /// the neighbour: a box sliding over a floor of triangles would trip on their seams. Where the neighbour goes on flat
-/// or rises, only the triangle's own normal is true; where it falls away, normals between the two. At a border all are.
-/// All in the surface's frame; `middle` lies inside the other shape.
+/// or rises, nothing of the normal may lead over that side; where it falls away, the neighbour's own normal is the
+/// steepest. At a border all are true. All in the surface's frame; `middle` lies inside the other shape.
 fn surface_normal(surface: &dyn Triangles, index: u32, normal: DVec3, middle: DVec3) -> DVec3 {
     const FLAT: f64 = 1e-6;
+    const ROUNDING: f64 = 1e-12;
     let corners = surface.corners(index);
     let anticlockwise = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize_or_zero();
     let above = normal.dot(anticlockwise);
@@ -172,18 +222,14 @@ fn surface_normal(surface: &dyn Triangles, index: u32, normal: DVec3, middle: DV
     let own = if above < 0.0 { -anticlockwise } else { anticlockwise };
     let sideways = normal - own * normal.dot(own);
     if sideways.length() <= FLAT {
-        return normal;
+        return if sideways.length() <= ROUNDING { own } else { normal };
     }
     let neighbours = surface.neighbours(index);
-    let mut allowed = normal;
-    for side in 0..3 {
+    let (mut left, mut steepest) = (normal, None);
+    for (side, outward, share) in sides_crossed(corners, anticlockwise, sideways) {
+        let Some(neighbour) = neighbours[side].filter(|_| share > FLAT) else { continue };
         let (from, to) = (corners[side], corners[(side + 1) % 3]);
         let along = (to - from).normalize_or_zero();
-        let outward = along.cross(anticlockwise);
-        if sideways.dot(outward) <= FLAT {
-            continue;
-        }
-        let Some(neighbour) = neighbours[side] else { continue };
         let beyond = surface.corners(neighbour).map(|corner| {
             let reach = corner - from;
             reach - along * reach.dot(along)
@@ -192,16 +238,37 @@ fn surface_normal(surface: &dyn Triangles, index: u32, normal: DVec3, middle: DV
             beyond.into_iter().max_by(|one, other| one.length_squared().total_cmp(&other.length_squared()));
         let onward = longest.unwrap_or(DVec3::ZERO).normalize_or_zero();
         if onward.dot(own) >= -FLAT {
-            return own;
+            left -= outward * share;
+            continue;
         }
         // The neighbour's normal on this side, on the far side of the ridge from our own.
         let across = along.cross(onward).normalize_or_zero();
         let theirs = if across.dot(outward) < 0.0 { -across } else { across };
-        if allowed.dot(own) < theirs.dot(own) {
-            allowed = theirs;
+        if steepest.is_none_or(|steepest: DVec3| steepest.dot(own) < theirs.dot(own)) {
+            steepest = Some(theirs);
         }
     }
-    allowed
+    if left != normal {
+        let remains = left - own * left.dot(own);
+        left = if remains.length() <= FLAT { own } else { left.normalize_or(own) };
+    }
+    steepest.filter(|steepest| left.dot(own) < steepest.dot(own)).unwrap_or(left)
+}
+
+/// The two sides of a triangle that meet at its corner farthest `sideways` (a vector in its plane), each with its outward
+/// normal in the plane and with how much of that `sideways` takes: it is the sum of the two, and no share is negative.
+fn sides_crossed(corners: [DVec3; 3], anticlockwise: DVec3, sideways: DVec3) -> [(usize, DVec3, f64); 2] {
+    let height = |corner: usize| corners[corner].dot(sideways);
+    let farthest = (1..3).fold(0, |best, corner| if height(corner) > height(best) { corner } else { best });
+    let (before, after) = ((farthest + 2) % 3, farthest);
+    let along = |side: usize| (corners[(side + 1) % 3] - corners[side]).normalize_or_zero();
+    let outward = |side: usize| along(side).cross(anticlockwise);
+    // The other side's direction has no part in its own normal, so it tells the first one's share.
+    let share = |side: usize, other: usize| {
+        let turn = outward(side).dot(along(other));
+        if turn == 0.0 { 0.0 } else { sideways.dot(along(other)) / turn }
+    };
+    [(before, outward(before), share(before, after)), (after, outward(after), share(after, before))]
 }
 
 /// Height (m) of the lowest corner above the plane.
