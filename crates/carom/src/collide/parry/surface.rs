@@ -64,12 +64,31 @@ pub(super) fn separation(surface: &dyn Triangles, pose: &Pose, other: &Shape, ot
     let (low, high) = other.bounds(&inner);
     let (surface_low, surface_high) = surface.bounds();
     let boxes_apart = (surface_low - high).max(low - surface_high).max(DVec3::ZERO).length();
-    // What is not found by the search is farther off than this.
-    let horizon = 0.25 * (high - low).max_element();
-    if boxes_apart >= horizon {
-        return boxes_apart;
+    let extent = (high - low).max_element();
+    // What is not found by a search is farther off than its horizon. Mostly the other is close, and a short look will do.
+    let mut farthest = boxes_apart;
+    for horizon in [extent / 256.0, extent / 32.0, extent / 4.0] {
+        if boxes_apart >= horizon {
+            continue;
+        }
+        farthest = separation_within((surface, pose), (other, other_pose), (low, high), horizon);
+        if farthest < horizon {
+            break;
+        }
     }
+    farthest
+}
+
+/// The least separation of the triangles of `surface` from `other`, which lies between `low` and `high` in the surface's
+/// frame, if it is below `horizon` (m); else that.
+fn separation_within(
+    (surface, pose): (&dyn Triangles, &Pose),
+    (other, other_pose): (&Shape, &Pose),
+    (low, high): (DVec3, DVec3),
+    horizon: f64,
+) -> f64 {
     let near = nearby(surface, low, high, horizon);
+    let inner = pose.relative(other_pose);
     match (Convex::of(other), triangles_of(other)) {
         (Some(convex), _) => least_separation(surface, near, &convex, &inner, horizon),
         (None, Some(other)) => {
