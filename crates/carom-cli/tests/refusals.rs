@@ -42,6 +42,11 @@ fn broken_scenes() {
         ("radius text", with_collider(r#""shape": {"type": "sphere", "radius": "1"}"#)),
         ("radius too large", with_collider(r#""shape": {"type": "sphere", "radius": 1e7}"#)),
         ("size of two", with_collider(r#""shape": {"type": "box", "size": [1, 2]}"#)),
+        ("moving height field", {
+            let field = r#"{"type": "heightfield", "heights": [[0, 0], [0, 0]], "size": [1, 1]}"#;
+            with_collider(&format!(r#""shape": {field}"#))
+        }),
+        ("missing OBJ file", with_collider(r#""shape": {"type": "hull", "file": "nowhere.obj"}"#)),
         ("moving plane", with_collider(r#""shape": {"type": "plane"}"#)),
         ("unknown collider key", with_collider(r#""shape": {"type": "sphere", "radius": 1}, "bounce": 1"#)),
         (
@@ -77,6 +82,20 @@ fn broken_scenes() {
         folder.refused(&["explain", "scene.json"], 2);
         assert!(!trace.exists(), "{case}: a trace was begun");
     }
+}
+
+#[test]
+fn an_obj_file_that_is_missing_or_broken_is_named_with_its_place_in_the_scene() {
+    let folder = Folder::new("an_obj_file_that_is_missing_or_broken");
+    folder.file("scene.json", with_collider(r#""shape": {"type": "hull", "file": "bunny.obj"}"#));
+    let complaint = folder.refused(&["run", "scene.json"], 2);
+    assert!(
+        complaint.contains(r#"scene.json: bodies[0].colliders[0].shape.file: "bunny.obj"; expected"#),
+        "{complaint}"
+    );
+    folder.file("bunny.obj", "v 0 0 0\nv 1 0 ear\n");
+    let complaint = folder.refused(&["run", "scene.json"], 2);
+    assert!(complaint.contains("shape.file (bunny.obj, line 2): ear; expected a number"), "{complaint}");
 }
 
 #[test]

@@ -32,7 +32,8 @@ pub enum SceneError {
     Invalid {
         /// The file as it was asked for.
         file: String,
-        /// Where in the file: `bodies[3].colliders[0].shape.radius`. Empty for the file as a whole.
+        /// Where in the file: `bodies[3].colliders[0].shape.radius`. Empty for the file as a whole; with name and line of
+        /// another file where this one names it.
         path: String,
         /// The value found, as text.
         value: String,

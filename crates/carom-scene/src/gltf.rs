@@ -8,7 +8,7 @@
 //!   collider's node places and scales it ([`mesh`]).
 //! - A linear velocity is that of the centre of mass; both velocities are turned from the node's axes to the
 //!   world's and take no scale, the centre of mass takes the node's ([`motion`]).
-//! - A body with a mass whose colliders enclose no volume weighs like a sheet ([`sheet`]).
+//! - A body with a mass whose colliders enclose no volume weighs like a sheet, as everywhere in the engine; a note says so.
 //! - Gravity and the length of a step are those of the JSON format, since glTF has neither.
 //!
 //! Bodies come in the order of their nodes' indices. Unknown keys inside the two extensions are refused; whatever
@@ -24,7 +24,6 @@ mod json;
 mod mesh;
 mod motion;
 mod shapes;
-mod sheet;
 mod surface;
 
 use crate::{Scene, SceneError};

@@ -5,6 +5,7 @@
 
 mod bodies;
 mod cursor;
+mod files;
 mod joints;
 mod materials;
 mod nearest;
@@ -19,6 +20,7 @@ use bodies::Shared;
 use carom::math::DVec3;
 use carom::{Body, Settings};
 use cursor::{Cursor, Object};
+use files::Files;
 use materials::Materials;
 use std::collections::HashMap;
 use std::path::Path;
@@ -39,8 +41,8 @@ pub(crate) const MAX_BODIES: usize = 10_000_000;
 const SCENE_KEYS: [&str; 9] =
     ["carom", "name", "gravity", "dt", "substeps", "sleeping", "materials", "bodies", "joints"];
 
-/// The scene in a document that was read from `file`.
-pub(crate) fn scene(document: &Json, file: &str) -> Result<Scene, SceneError> {
+/// The scene in a document that was read from `file`; the files that it names are relative to `folder`.
+pub(crate) fn scene(document: &Json, file: &str, folder: &Path) -> Result<Scene, SceneError> {
     let root = Cursor::root(file, document);
     let object = root.object()?;
     // The version first: all other keys are those of this version.
@@ -63,7 +65,7 @@ pub(crate) fn scene(document: &Json, file: &str) -> Result<Scene, SceneError> {
     let sleeping = object.optional("sleeping", Cursor::boolean)?.unwrap_or(false);
     let materials = object.optional("materials", Materials::read)?.unwrap_or_default();
     let list = object.require("bodies", "a list of bodies")?;
-    let bodies = bodies(&list, Shared::new(materials))?;
+    let bodies = bodies(&list, Shared::new(materials, Files::new(folder)))?;
     object.optional("joints", joints::read)?;
     let mut notes = Vec::new();
     if sleeping {

@@ -15,6 +15,7 @@ mod builtin;
 mod error;
 mod gltf;
 mod json;
+mod obj;
 mod scene;
 mod schema;
 

@@ -34,21 +34,23 @@ impl Scene {
     /// Names the file, the place in it, the value found and what was expected.
     pub fn load(path: &Path) -> Result<Scene, SceneError> {
         let file = path.display().to_string();
+        let folder = path.parent().unwrap_or(Path::new(""));
         let bytes = read_file(path, &file)?;
         let ending = path.extension().map(|ending| ending.to_ascii_lowercase());
         match ending.as_deref().and_then(|ending| ending.to_str()) {
-            Some("json") => Scene::from_json(as_text(&bytes, &file)?, &file),
+            Some("json") => json::scene(&Json::parse(as_text(&bytes, &file)?, &file)?, &file, folder),
             Some("gltf" | "glb") => gltf::load(path, &bytes),
             _ if bytes.starts_with(b"glTF") => gltf::load(path, &bytes),
             _ => {
                 let document = Json::parse(as_text(&bytes, &file)?, &file)?;
                 let is_gltf = document.get("carom").is_none() && document.get("asset").is_some();
-                if is_gltf { gltf::load(path, &bytes) } else { json::scene(&document, &file) }
+                if is_gltf { gltf::load(path, &bytes) } else { json::scene(&document, &file, folder) }
             }
         }
     }
 
     /// Reads a scene from text in the format `carom` 1. Errors call it `origin`; so is a scene without a name.
+    /// Files that the scene names are looked for in the folder of `origin`, which is the current one where it has none.
     ///
     /// ```
     /// use carom_scene::Scene;
@@ -66,7 +68,8 @@ impl Scene {
     /// # Errors
     /// Names the place, the value found and what was expected.
     pub fn from_json(text: &str, origin: &str) -> Result<Scene, SceneError> {
-        json::scene(&Json::parse(text, origin)?, origin)
+        let folder = Path::new(origin).parent().unwrap_or(Path::new(""));
+        json::scene(&Json::parse(text, origin)?, origin, folder)
     }
 
     /// A world with the scene's bodies, and their ids in the order of [`Scene::bodies`].
@@ -96,7 +99,8 @@ fn build(settings: Settings, bodies: impl Iterator<Item = Body>) -> Result<(Worl
     Ok((world, ids))
 }
 
-fn read_file(path: &Path, file: &str) -> Result<Vec<u8>, SceneError> {
+/// The bytes of the file at `path`, which errors call `file`.
+pub(crate) fn read_file(path: &Path, file: &str) -> Result<Vec<u8>, SceneError> {
     let unreadable = |source| SceneError::Unreadable { file: file.to_owned(), source };
     let too_long = |length: String| SceneError::invalid(file, "", length, "a file of at most 1 GiB");
     let opened = File::open(path).map_err(unreadable)?;

@@ -199,7 +199,7 @@ fn shape() -> Value {
         let required: Vec<&str> = keys.iter().map(|(key, _)| *key).collect();
         tagged(tag, description, &required, keys.iter().cloned())
     };
-    let file = || text("OBJ file with the points, relative to the scene. Not built yet.");
+    let file = || text("OBJ file, relative to the scene: all its groups, polygons cut into fans.");
     let straight = [("height", length("Of the cylindrical part, m.")), ("radius", length("Radius, m."))];
     let tapered = [
         ("height", length("Distance of the two ends' centres, m.")),
@@ -211,7 +211,12 @@ fn shape() -> Value {
         "Indices of three vertices.",
         json!({ "type": "array", "items": { "type": "integer", "minimum": 0 }, "minItems": 3, "maxItems": 3 }),
     );
-    let heights = json!({ "type": "array", "items": { "type": "number" } });
+    let reach = *limits::LENGTH.end();
+    let mut heights =
+        list("Heights along x, as many as in the first row, m.", number("m", &within(-reach..=reach)));
+    heights["minItems"] = json!(2);
+    let mut rows = list("Rows along z, each a list along x, m.", heights);
+    rows["minItems"] = json!(2);
     let size = json!({ "type": "array", "items": within(limits::LENGTH), "minItems": 2, "maxItems": 2 });
     let kinds = [
         kind("sphere", "A ball.", &[("radius", length("Radius, m."))]),
@@ -226,17 +231,14 @@ fn shape() -> Value {
         kind("hull", "The convex hull of a file's points.", &[("file", file())]),
         kind(
             "mesh",
-            "A surface, solid from both sides; on a dynamic body it needs the body's mass.",
+            "A surface, solid from both sides; on a dynamic body it needs the body's mass, and weighs like a thin sheet if open.",
             &[("vertices", corners), ("triangles", list("The triangles.", triangle))],
         ),
         kind("mesh", "A surface from a file.", &[("file", file())]),
         kind(
             "heightfield",
-            "Heights over a grid, centred; on static bodies only. Not built yet.",
-            &[
-                ("heights", list("Rows along z, each a list along x, m.", heights)),
-                ("size", described("Full extent [x, z], m.", size)),
-            ],
+            "Heights over a grid, centred, each cell cut from its low to its high corner; on static bodies only.",
+            &[("heights", rows), ("size", described("Full extent [x, z], m.", size))],
         ),
     ];
     described("The form of a collider.", json!({ "oneOf": kinds }))

@@ -1,5 +1,6 @@
 //! Files: which format they are taken for, and what is said of those that are no scene at all.
 
+use carom::Shape;
 use carom_scene::{Scene, SceneError};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -80,6 +81,65 @@ fn empty_files_and_other_values_are_refused() {
     for text in ["null", "[]", "7", "\"scene\""] {
         assert_eq!(said("other.json", text), format!("{text}; expected an object {{...}}"));
     }
+}
+
+const TETRAHEDRON: &str = include_str!("tetrahedron.obj");
+
+/// A scene whose one dynamic body has that shape.
+fn with_shape(shape: &str) -> String {
+    format!(
+        r#"{{ "carom": 1, "bodies": [ {{ "mass": 1, "colliders": [ {{ "shape": {shape} }}, {{ "shape": {shape} }} ] }} ] }}"#
+    )
+}
+
+#[test]
+fn shapes_come_from_obj_files_beside_the_scene() {
+    let obj = file("tetrahedron.obj", TETRAHEDRON);
+    let scene = |shape: &str| Scene::load(&file("shape.json", with_shape(shape))).unwrap().bodies.remove(0);
+    for name in ["tetrahedron.obj", "../scene-files/tetrahedron.obj", obj.to_str().unwrap()] {
+        let mesh = scene(&format!(r#"{{ "type": "mesh", "file": {name:?} }}"#));
+        let [Shape::Mesh(one), Shape::Mesh(other)] = [0, 1].map(|i| mesh.colliders[i].shape.clone()) else {
+            panic!("{mesh:?}");
+        };
+        assert_eq!((one.vertices().len(), one.triangles().len()), (4, 4));
+        assert!(std::sync::Arc::ptr_eq(&one, &other), "read once");
+        assert!((mesh.colliders[0].shape.mass_properties(6.0).mass - 1.0).abs() < 1e-12, "closed");
+        let hull = scene(&format!(r#"{{ "type": "hull", "file": {name:?} }}"#));
+        assert!(matches!(&hull.colliders[0].shape, Shape::Hull(hull) if hull.vertices().len() == 4));
+    }
+    // From text the folder is that of the name, else the current one: that of the crate.
+    let shape = with_shape(r#"{ "type": "hull", "file": "tetrahedron.obj" }"#);
+    assert!(Scene::from_json(&shape, "tests/text.json").is_ok());
+    assert!(Scene::from_json(&shape, "text.json").is_err());
+}
+
+#[test]
+fn a_hull_takes_all_vertices_with_or_without_a_face() {
+    file("stray.obj", format!("{TETRAHEDRON}v 9 9 9\n"));
+    let scene = with_shape(r#"{ "type": "hull", "file": "stray.obj" }"#);
+    let scene = Scene::load(&file("stray.json", scene)).unwrap();
+    assert_eq!(scene.bodies[0].colliders[0].shape.bounds(&carom::math::Pose::IDENTITY).1.x, 9.0);
+}
+
+#[test]
+fn trouble_in_an_obj_file_is_told_with_its_line() {
+    let said = |content: &str, kind: &str| {
+        let obj = file("trouble.obj", content);
+        let scene = with_shape(&format!(r#"{{ "type": "{kind}", "file": "trouble.obj" }}"#));
+        let said = said("trouble.json", scene);
+        let start = format!("bodies[0].colliders[0].shape.file ({}", obj.display());
+        said.strip_prefix(&start).unwrap_or_else(|| panic!("{said}")).to_owned()
+    };
+    let face = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    assert_eq!(
+        said(&format!("{face}f 1 2 9\n"), "mesh"),
+        ", line 5): 9; expected the number of one of the file's 3 vertices"
+    );
+    assert_eq!(said("v 0 0 x", "hull"), ", line 1): x; expected a number from -1e6 to 1e6 m");
+    assert_eq!(said("", "mesh"), "): no face; expected at least one face (a line `f 1 2 3`)");
+    assert!(said(face, "hull").starts_with("): 3 vertices; expected at least 4 vertices"));
+    assert!(said(&format!("{face}v 1 1 0"), "hull").contains("expected"), "a flat hull");
+    assert!(said("v 0 0 0\nf 1 1 1", "mesh").contains("at least one triangle with an area"));
 }
 
 #[test]

@@ -173,6 +173,26 @@ fn every_shape_is_read() {
     let mesh =
         r#"{ "type": "mesh", "vertices": [[0, 0, 0], [1, 0, 0], [0, 1, 0]], "triangles": [[0, 1, 2]] }"#;
     assert!(matches!(shape(mesh), Shape::Mesh(mesh) if mesh.triangles() == [[0, 1, 2]]));
+    let field = shape(r#"{ "type": "heightfield", "heights": [[0, 1, 2], [3, 4, 5]], "size": [4, 2] }"#);
+    let Shape::HeightField(field) = field else { panic!("{field:?}") };
+    assert_eq!((field.columns(), field.rows(), field.size()), (3, 2, [4.0, 2.0]));
+    assert_eq!(
+        (field.height(2, 0), field.height(0, 1)),
+        (Some(2.0), Some(3.0)),
+        "rows along z, each along x"
+    );
+}
+
+#[test]
+fn an_open_mesh_with_a_mass_is_a_thin_sheet() {
+    let mesh = r#"{ "type": "mesh", "vertices": [[-1, 0, -2], [-1, 0, 2], [1, 0, 2], [1, 0, -2]], "triangles": [[0, 1, 2], [0, 2, 3]] }"#;
+    let plate =
+        body(&format!(r#""mass": 12, "colliders": [ {{ "shape": {mesh}, "position": [1, 2, 3] }} ]"#));
+    let mass = carom::mass::BodyMass::of(&plate).unwrap();
+    assert!((mass.center - DVec3::new(1.0, 2.0, 3.0)).length() < 1e-12);
+    let tensor = carom::math::rotated_diagonal(mass.principal_rotation, mass.moments);
+    let diagonal = DVec3::new(tensor.x_axis.x, tensor.y_axis.y, tensor.z_axis.z);
+    assert!((diagonal - DVec3::new(16.0, 20.0, 4.0)).length() < 1e-9, "{tensor}");
 }
 
 #[test]

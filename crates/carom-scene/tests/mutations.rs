@@ -68,6 +68,19 @@ impl Damage {
     }
 }
 
+/// Shapes that no built-in scene has, files included.
+const SHAPES: &str = r#"{ "carom": 1, "bodies": [
+    { "motion": "static", "colliders": [ { "shape":
+        { "type": "heightfield", "heights": [[0, 0.5, 1], [0, 0.25, 0], [1e-3, -2, 3]], "size": [4, 5] } } ] },
+    { "mass": 2, "colliders": [ { "shape": { "type": "mesh", "file": "tests/tetrahedron.obj" } },
+        { "shape": { "type": "hull", "file": "tests/tetrahedron.obj" } },
+        { "shape": { "type": "mesh", "vertices": [[0, 0, 0], [1, 0, 0], [0, 1, 0]], "triangles": [[0, 1, 2]] } } ] } ] }"#;
+
+#[test]
+fn the_scene_to_be_damaged_is_whole() {
+    assert!(Scene::from_json(SHAPES, "whole.json").is_ok());
+}
+
 proptest! {
     #![proptest_config(ProptestConfig {
         cases: 3000,
@@ -81,12 +94,32 @@ proptest! {
         which in any::<prop::sample::Index>(),
         damage in prop::collection::vec(Damage::strategy(), 1..6),
     ) {
-        let scenes: Vec<_> = builtin_scenes().iter().filter(|(.., bytes)| bytes.starts_with(b"{")).collect();
-        let mut bytes = which.get(&scenes).2.to_vec();
+        let builtin = builtin_scenes().iter().map(|(.., bytes)| *bytes).filter(|bytes| bytes.starts_with(b"{"));
+        // Every other one is of shapes.
+        let scenes: Vec<_> = builtin.flat_map(|bytes| [bytes, SHAPES.as_bytes()]).collect();
+        let mut bytes = which.get(&scenes).to_vec();
         damage.iter().for_each(|damage| damage.apply(&mut bytes));
         if let Err(error) = Scene::from_json(&String::from_utf8_lossy(&bytes), "damaged.json") {
             let error = error.to_string();
             prop_assert!(error.starts_with("damaged.json: ") && !error.contains('\n'), "{}", error);
+        }
+    }
+
+    #[test]
+    fn a_damaged_obj_file_never_panics(damage in prop::collection::vec(Damage::strategy(), 1..6)) {
+        let mut bytes = include_bytes!("tetrahedron.obj").to_vec();
+        damage.iter().for_each(|damage| damage.apply(&mut bytes));
+        let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR"));
+        std::fs::write(folder.join("damaged.obj"), &bytes).unwrap();
+        for kind in ["hull", "mesh"] {
+            let scene = format!(
+                r#"{{ "carom": 1, "bodies": [ {{ "motion": "static", "colliders": [ {{ "shape": {{ "type": "{kind}", "file": "damaged.obj" }} }} ] }} ] }}"#
+            );
+            let origin = folder.join("damaged-obj.json").display().to_string();
+            if let Err(error) = Scene::from_json(&scene, &origin) {
+                let error = error.to_string();
+                prop_assert!(error.contains("damaged.obj") && !error.contains('\n'), "{}", error);
+            }
         }
     }
 }

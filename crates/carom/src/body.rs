@@ -109,7 +109,8 @@ pub struct Body {
     pub angular_damping: f64,
     /// Gravity acts times this; may be 0 or negative.
     pub gravity_factor: f64,
-    /// Mass, kg, in place of the colliders' (which then share it out); 0 stands for infinite.
+    /// Mass, kg, in place of the colliders' (which then share it out, by their volumes or, where they have none, by their
+    /// surfaces); 0 stands for infinite.
     pub mass: Option<f64>,
     /// Centre of mass in the body's frame, m, in place of the colliders'.
     pub center_of_mass: Option<DVec3>,
@@ -236,9 +237,11 @@ impl Body {
         }
         for (index, collider) in self.colliders.iter().enumerate() {
             collider.check().map_err(|error| error.within(&format!("colliders[{index}]")))?;
-            if self.motion != Motion::Fixed && matches!(collider.shape, Shape::Plane) {
+            if self.motion != Motion::Fixed
+                && let Some(name) = collider.shape.only_fixed()
+            {
                 let field = format!("colliders[{index}].shape");
-                return Err(Invalid::new(field, "plane", "a shape with bounds, or a static body"));
+                return Err(Invalid::new(field, name, "another shape, or a static body"));
             }
         }
         if self.motion == Motion::Dynamic { BodyMass::of(self).map(|_| ()) } else { Ok(()) }
@@ -251,6 +254,19 @@ impl Body {
             solid
                 .map(|collider| collider.shape.mass_properties(collider.density).transformed(&collider.pose)),
         )
+    }
+
+    /// The meshes as sheets of one thickness (1 m, so that densities are per area), centre and inertia in the body's frame;
+    /// sensors weigh nothing. What shares out the body's mass where no collider encloses a volume.
+    pub(crate) fn sheet_mass(&self) -> MassProperties {
+        let solid = self.colliders.iter().filter(|collider| !collider.sensor);
+        MassProperties::sum(solid.filter_map(|collider| match &collider.shape {
+            Shape::Mesh(mesh) => {
+                let sheet = MassProperties::sheet(mesh.vertices(), mesh.triangles(), collider.density);
+                Some(sheet.transformed(&collider.pose))
+            }
+            _ => None,
+        }))
     }
 }
 

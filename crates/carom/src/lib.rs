@@ -22,6 +22,7 @@ mod material;
 mod shape;
 
 // What that weighs and is bounded by.
+pub mod height_field;
 pub mod hull;
 pub mod mass;
 pub mod mesh;

@@ -128,6 +128,38 @@ impl MassProperties {
         Self { mass: density * volume.abs(), center: middle + center, inertia: inertia * density }
     }
 
+    /// A thin sheet: `area_density` (kg/m²) spread evenly over triangles, whether they close or not.
+    ///
+    /// ```text
+    /// A = Σ |(b − a) × (c − a)|/2       ∫x dA = Σ A_t (a + b + c)/3       ∫x·xᵀ dA = Σ A_t/12 (a·aᵀ + b·bᵀ + c·cᵀ + s·sᵀ)
+    /// ```
+    ///
+    /// over the triangles `a, b, c`, with `s = a + b + c`; corners are taken from the middle of the first triangle. Without
+    /// any area it is [`NONE`](Self::NONE).
+    pub fn sheet(vertices: &[DVec3], triangles: &[[u32; 3]], area_density: f64) -> Self {
+        let corner = |index: u32| vertices.get(index as usize).copied();
+        let corners = |t: &[u32; 3]| Some([corner(t[0])?, corner(t[1])?, corner(t[2])?]);
+        let surface: Vec<[DVec3; 3]> = triangles.iter().filter_map(corners).collect();
+        let origin = surface.first().map_or(DVec3::ZERO, |[a, b, c]| (*a + *b + *c) / 3.0);
+        let (mut area, mut first, mut second) = (0.0, DVec3::ZERO, DMat3::ZERO);
+        for corners in surface {
+            let [a, b, c] = corners.map(|corner| corner - origin);
+            let triangle = 0.5 * (b - a).cross(c - a).length();
+            let sum = a + b + c;
+            area += triangle;
+            first += sum * (triangle / 3.0);
+            second += (outer(a) + outer(b) + outer(c) + outer(sum)) * (triangle / 12.0);
+        }
+        if area <= 0.0 {
+            return Self::NONE;
+        }
+        let center = first / area;
+        let covariance = second - outer(center) * area;
+        let trace = covariance.x_axis.x + covariance.y_axis.y + covariance.z_axis.z;
+        let inertia = DMat3::from_diagonal(DVec3::splat(trace)) - covariance;
+        Self { mass: area_density * area, center: origin + center, inertia: inertia * area_density }
+    }
+
     /// The same mass seen from the frame that `pose` leads to: the centre moves, the inertia turns and stays the one
     /// about the centre of mass.
     pub fn transformed(&self, pose: &Pose) -> Self {

@@ -3,6 +3,7 @@
 //! Lengths are in metres, volumes in m³. Round shapes lie along y, centred on the middle of their height.
 
 use crate::error::{Invalid, limits};
+use crate::height_field::HeightField;
 use crate::hull::Hull;
 use crate::mass::MassProperties;
 use crate::math::{DVec3, Pose};
@@ -53,6 +54,8 @@ pub enum Shape {
     Hull(Arc<Hull>),
     /// A surface of triangles, solid from both sides.
     Mesh(Arc<Mesh>),
+    /// Heights over a grid, solid from both sides. For bodies that don't move.
+    HeightField(Arc<HeightField>),
 }
 
 impl Shape {
@@ -123,6 +126,24 @@ impl Shape {
         }
     }
 
+    /// Heights (m) in rows along z, each a list along x, over a rectangle of the full extent `size` (x and z, m), centred.
+    /// For bodies that don't move.
+    ///
+    /// # Errors
+    /// If there are fewer than two rows, rows that are shorter than two or not of one length, or a number out of range.
+    pub fn height_field(heights: &[Vec<f64>], size: [f64; 2]) -> Result<Self, Invalid> {
+        HeightField::new(heights, size).map(|field| Shape::HeightField(Arc::new(field)))
+    }
+
+    /// What a shape that only a body at rest can have is called: it has no bounds, or is ground by its nature.
+    pub fn only_fixed(&self) -> Option<&'static str> {
+        match self {
+            Shape::Plane => Some("plane"),
+            Shape::HeightField(_) => Some("height field"),
+            _ => None,
+        }
+    }
+
     /// Checks the lengths: finite, 1e-6 to 1e6 m; at most one radius of a tapered shape 0.
     ///
     /// # Errors
@@ -148,11 +169,12 @@ impl Shape {
             | Shape::Cylinder { height, radius_bottom, radius_top } => {
                 tapered(*height, *radius_bottom, *radius_top)
             }
-            Shape::Plane | Shape::Hull(_) | Shape::Mesh(_) => Ok(()),
+            Shape::Plane | Shape::Hull(_) | Shape::Mesh(_) | Shape::HeightField(_) => Ok(()),
         }
     }
 
-    /// Mass, centre of mass and inertia at the given density (kg/m³). A plane and an open mesh weigh nothing.
+    /// Mass, centre of mass and inertia at the given density (kg/m³). A plane, an open mesh and a height field weigh
+    /// nothing.
     pub fn mass_properties(&self, density: f64) -> MassProperties {
         match self {
             Shape::Sphere { radius } => MassProperties::sphere(*radius, density),
@@ -166,13 +188,14 @@ impl Shape {
             Shape::Cylinder { height, radius_bottom, radius_top } => {
                 MassProperties::frustum(*height, *radius_bottom, *radius_top, density)
             }
-            Shape::Plane => MassProperties::NONE,
+            Shape::Plane | Shape::HeightField(_) => MassProperties::NONE,
             Shape::Hull(hull) => MassProperties::polyhedron(hull.vertices(), hull.triangles(), density),
             Shape::Mesh(mesh) => MassProperties::polyhedron(mesh.vertices(), mesh.triangles(), density),
         }
     }
 
-    /// The smallest box along the world's axes around the shape at `pose`: lowest and highest corner. Infinite for a plane.
+    /// The smallest box along the world's axes around the shape at `pose`: lowest and highest corner. Infinite for a plane;
+    /// for a height field around the box that stands around it in its own frame.
     pub fn bounds(&self, pose: &Pose) -> (DVec3, DVec3) {
         let center = pose.position;
         let along_y = |half: f64| pose.rotation * DVec3::new(0.0, half, 0.0);
@@ -211,10 +234,12 @@ impl Shape {
                 (ends(-1.0), ends(1.0))
             }
             Shape::Mesh(mesh) => bounds_of_points(mesh.vertices(), pose),
+            Shape::HeightField(field) => field.placed_bounds(pose),
         }
     }
 
-    /// The largest distance of any of the shape's points from `origin` (m), both in the shape's frame. Infinite for a plane.
+    /// The largest distance of any of the shape's points from `origin` (m), both in the shape's frame. Infinite for a plane;
+    /// that of the box around it for a height field.
     pub fn reach(&self, origin: DVec3) -> f64 {
         let from = |y: f64| (origin - DVec3::new(0.0, y, 0.0)).length();
         match self {
@@ -234,6 +259,7 @@ impl Shape {
             Shape::Plane => f64::INFINITY,
             Shape::Hull(hull) => reach_of_points(hull.vertices(), origin),
             Shape::Mesh(mesh) => reach_of_points(mesh.vertices(), origin),
+            Shape::HeightField(field) => field.reach(origin),
         }
     }
 
@@ -251,7 +277,7 @@ impl Shape {
                 let (low, high) = bounds_of_points(hull.vertices(), &Pose::IDENTITY);
                 (high - low).min_element()
             }
-            Shape::Mesh(_) => 0.0,
+            Shape::Mesh(_) | Shape::HeightField(_) => 0.0,
         }
     }
 }

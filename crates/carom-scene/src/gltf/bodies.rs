@@ -11,7 +11,6 @@ use super::json::{At, Document};
 use super::mesh::{Reader, Surface};
 use super::motion;
 use super::shapes::Implicit;
-use super::sheet;
 use super::surface::{PHYSICS, Tables};
 use crate::SceneError;
 use carom::math::{DVec3, Pose};
@@ -174,7 +173,10 @@ impl<'a> Builder<'a, '_> {
         };
         if body.motion == carom::Motion::Dynamic {
             motion::complete_mass(&mut body, motion)?;
-            if sheet::spread(&mut body) {
+            let is_sheet = body.mass.is_some_and(|mass| mass > 0.0)
+                && body.inertia.is_none()
+                && body.collider_mass().mass <= 0.0;
+            if is_sheet {
                 let note = "the colliders enclose no volume, so the mass is spread over their surface";
                 self.notes.push(format!("{}: {note}", motion.path));
             }

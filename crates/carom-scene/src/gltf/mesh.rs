@@ -136,7 +136,12 @@ impl<'a> Reader<'a, '_> {
         }
         surface.vertices.append(&mut points);
         let base = base as u32;
-        let mut add = |a: u32, b: u32, c: u32| surface.triangles.push([base + a, base + b, base + c]);
+        // A node that mirrors would turn its triangles to face inwards. A skin's vertices follow the joints instead.
+        let mirrors = bend.skin.is_none() && frame.linear.determinant() < 0.0;
+        let mut add = |a: u32, b: u32, c: u32| {
+            let (b, c) = if mirrors { (c, b) } else { (b, c) };
+            surface.triangles.push([base + a, base + b, base + c]);
+        };
         match mode {
             4 => corners.chunks_exact(3).for_each(|t| add(t[0], t[1], t[2])),
             // Every second triangle of a strip runs the other way round.

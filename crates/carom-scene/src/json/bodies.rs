@@ -1,6 +1,7 @@
 //! Bodies and their colliders.
 
 use super::cursor::{Cursor, Object};
+use super::files::Files;
 use super::materials::{Materials, SURFACE_KEYS, SurfaceKeys};
 use super::shapes;
 use super::tree::{Json, number};
@@ -32,15 +33,16 @@ const COLLIDER_KEYS: [&str; 8] =
 const MOTIONS: [(&str, Motion); 3] =
     [("dynamic", Motion::Dynamic), ("static", Motion::Fixed), ("kinematic", Motion::Kinematic)];
 
-/// What bodies share: the scene's materials, and numbers for the names of groups.
+/// What bodies share: the scene's materials, shapes from files, and numbers for the names of groups.
 pub(super) struct Shared {
     materials: Materials,
+    files: Files,
     groups: HashMap<String, u32>,
 }
 
 impl Shared {
-    pub(super) fn new(materials: Materials) -> Self {
-        Self { materials, groups: HashMap::new() }
+    pub(super) fn new(materials: Materials, files: Files) -> Self {
+        Self { materials, files, groups: HashMap::new() }
     }
 
     fn groups(&mut self, list: &Cursor<'_>) -> Result<Groups, SceneError> {
@@ -155,10 +157,12 @@ fn read_collider(collider: &Cursor<'_>, motion: Motion, shared: &mut Shared) -> 
     let object = collider.object()?;
     object.only(&[COLLIDER_KEYS.as_slice(), SURFACE_KEYS.as_slice()].concat())?;
     let shape = object.require("shape", "a shape, such as {\"type\": \"sphere\", \"radius\": 0.5}")?;
-    let mut read = Collider::new(shapes::read(&shape)?);
-    if motion != Motion::Fixed && matches!(read.shape, Shape::Plane) {
+    let mut read = Collider::new(shapes::read(&shape, &mut shared.files)?);
+    if motion != Motion::Fixed
+        && let Some(name) = read.shape.only_fixed()
+    {
         let tag = shape.object()?.require("type", "a type")?;
-        return Err(tag.refuse("a shape with bounds; a plane only on a static body"));
+        return Err(tag.refuse(format!("another shape; a {name} only on a static body")));
     }
     read.pose = Pose {
         position: object.optional("position", Cursor::position)?.unwrap_or(DVec3::ZERO),

@@ -150,7 +150,8 @@ impl<'a> Cursor<'a> {
         )))
     }
 
-    fn numbers<const N: usize>(
+    /// A list of so many numbers, each as `read` wants it; `what` names the list.
+    pub(super) fn numbers<const N: usize>(
         &self,
         what: &str,
         read: impl Fn(&Cursor<'_>) -> Result<f64, SceneError>,

@@ -1,6 +1,7 @@
 //! Shapes.
 
 use super::cursor::{Cursor, Object};
+use super::files::Files;
 use super::nearest::known;
 use super::tree::number;
 use crate::SceneError;
@@ -11,7 +12,8 @@ use carom::{Invalid, Shape, limits};
 const TYPES: [&str; 9] =
     ["sphere", "box", "capsule", "cylinder", "cone", "plane", "hull", "mesh", "heightfield"];
 
-pub(super) fn read(shape: &Cursor<'_>) -> Result<Shape, SceneError> {
+/// Reads a shape; one that is in a file of its own comes from `files`.
+pub(super) fn read(shape: &Cursor<'_>, files: &mut Files) -> Result<Shape, SceneError> {
     let object = shape.object()?;
     let tag = object.require("type", &format!("the type of the shape, one of {}", TYPES.join(", ")))?;
     match tag.text("the type of the shape")? {
@@ -41,9 +43,9 @@ pub(super) fn read(shape: &Cursor<'_>) -> Result<Shape, SceneError> {
             Ok(Shape::cone(length(&object, "height")?, length(&object, "radius")?))
         }
         "plane" => object.only(&["type"]).map(|()| Shape::Plane),
-        "hull" => hull(&object),
-        "mesh" => mesh(&object),
-        "heightfield" => Err(tag.refuse("another shape; height fields are not built yet")),
+        "hull" => hull(&object, files),
+        "mesh" => mesh(&object, files),
+        "heightfield" => height_field(&object),
         wrong => Err(tag.refuse(format!("one of {}", known(wrong, TYPES)))),
     }
 }
@@ -102,10 +104,13 @@ fn end_radius(radius: &Cursor<'_>) -> Result<f64, SceneError> {
     })
 }
 
-fn hull(object: &Object<'_>) -> Result<Shape, SceneError> {
+fn hull(object: &Object<'_>, files: &mut Files) -> Result<Shape, SceneError> {
     object.only(&["type", "points", "file"])?;
-    refuse_file(object)?;
-    let points = object.require("points", "a list of points [x, y, z], m")?;
+    if let Some(file) = object.get("file") {
+        refuse_beside_file(object, &["points"])?;
+        return files.hull(&file);
+    }
+    let points = object.require("points", "a list of points [x, y, z], m, or a file")?;
     let corners = vertices(&points)?;
     if corners.len() < 4 {
         return Err(
@@ -115,10 +120,13 @@ fn hull(object: &Object<'_>) -> Result<Shape, SceneError> {
     Shape::hull(&corners).map_err(|invalid| within(object, "points", invalid))
 }
 
-fn mesh(object: &Object<'_>) -> Result<Shape, SceneError> {
+fn mesh(object: &Object<'_>, files: &mut Files) -> Result<Shape, SceneError> {
     object.only(&["type", "vertices", "triangles", "file"])?;
-    refuse_file(object)?;
-    let corners = object.require("vertices", "a list of points [x, y, z], m")?;
+    if let Some(file) = object.get("file") {
+        refuse_beside_file(object, &["vertices", "triangles"])?;
+        return files.mesh(&file);
+    }
+    let corners = object.require("vertices", "a list of points [x, y, z], m, or a file")?;
     let corners = vertices(&corners)?;
     let list = object.require("triangles", "a list of triangles, each three indices of vertices")?;
     let n_vertices = u32::try_from(corners.len()).unwrap_or(u32::MAX);
@@ -137,13 +145,25 @@ fn mesh(object: &Object<'_>) -> Result<Shape, SceneError> {
     Shape::mesh(corners, triangles).map_err(|invalid| within(object, "triangles", invalid))
 }
 
-fn refuse_file(object: &Object<'_>) -> Result<(), SceneError> {
-    match object.get("file") {
-        Some(file) => {
-            Err(file.refuse("the points in the scene itself; shapes from OBJ files are not built yet"))
-        }
+fn refuse_beside_file(object: &Object<'_>, keys: &[&str]) -> Result<(), SceneError> {
+    match keys.iter().find_map(|key| object.get(key)) {
+        Some(other) => Err(other.refuse("no such key beside file, which has the points")),
         None => Ok(()),
     }
+}
+
+fn height_field(object: &Object<'_>) -> Result<Shape, SceneError> {
+    object.only(&["type", "heights", "size"])?;
+    let reach = *limits::LENGTH.end();
+    let rows = object.require("heights", "rows of heights along z, each a list along x, m")?;
+    let mut heights: Vec<Vec<f64>> = Vec::new();
+    for row in rows.list("rows of heights")? {
+        let height = |item: Cursor<'_>| item.within(-reach..=reach, "m");
+        heights.push(row.list("heights along x")?.map(height).collect::<Result<_, _>>()?);
+    }
+    let size = object.require("size", "the full extent [x, z], m")?;
+    let size = size.numbers::<2>("lengths [x, z]", |extent| extent.length())?;
+    Shape::height_field(&heights, size).map_err(|invalid| within(object, "heights", invalid))
 }
 
 fn vertices(list: &Cursor<'_>) -> Result<Vec<DVec3>, SceneError> {
@@ -154,7 +174,8 @@ fn vertices(list: &Cursor<'_>) -> Result<Vec<DVec3>, SceneError> {
 /// The engine's complaint about a shape, at the place where it stands; `key` where it names none that the file has.
 fn within(object: &Object<'_>, key: &str, invalid: Invalid) -> SceneError {
     let field = invalid.field;
-    let known = ["points", "vertices", "triangles"].iter().any(|known| field.starts_with(known));
+    let known =
+        ["points", "vertices", "triangles", "heights", "size"].iter().any(|known| field.starts_with(known));
     let field = if known { field } else { key.to_owned() };
     SceneError::invalid(
         object.at.file,

@@ -206,6 +206,66 @@ fn the_collider_places_a_geometry_and_children_count() {
     assert!((volume - 4.0 / 6.0).abs() < 1e-12, "still facing outwards: {volume}");
 }
 
+/// The tetrahedron as the geometry of a body with a mass and no moments, in nodes of their own: `collider` for the
+/// body's, `geometry` for that of the mesh, `child` for another one below it with the same mesh.
+fn family(collider: Value, geometry: Value, child: Value, convex: bool) -> Scene {
+    let accessors = json!([positions(0, 4), indices(1, 5121, 12)]);
+    let mut file = document(&[&floats(&CORNERS), &FACES], accessors, triangles(), convex);
+    let nodes = file.0["nodes"].as_array_mut().unwrap();
+    nodes.push(json!({ "mesh": 0 }));
+    nodes[1]["children"] = json!([2]);
+    for (node, transform) in nodes.iter_mut().zip([collider, geometry, child]) {
+        node.as_object_mut().unwrap().extend(transform.as_object().unwrap().clone());
+    }
+    let motion = &mut nodes[0]["extensions"]["KHR_physics_rigid_bodies"]["motion"];
+    motion.as_object_mut().unwrap().remove("inertiaDiagonal");
+    load_glb(&file)
+}
+
+#[test]
+fn scales_count_in_every_node_and_mirrors_keep_the_outside_outside() {
+    for (scale, child, volume, center_x) in [
+        ([2.0, 3.0, 4.0], [1.0, 1.0, 1.0], 24.0, 0.25),
+        ([2.0, 3.0, 4.0], [0.5, 2.0, 1.0], 24.0, 0.125),
+        ([-2.0, 3.0, 4.0], [1.0, 1.0, 1.0], 24.0, 0.25),
+        ([-2.0, -3.0, -4.0], [1.0, 1.0, 1.0], 24.0, 0.25),
+        ([1.0, 1.0, 1.0], [-1.0, 1.0, 1.0], 1.0, -0.25),
+        ([1.0, -1.0, 1.0], [-1.0, -1.0, -1.0], 1.0, -0.25),
+    ] {
+        let scene = family(
+            json!({ "scale": scale }),
+            json!({ "translation": [100, 0, 0], "scale": [7, 7, 7] }),
+            json!({ "translation": [5, 0, 0], "scale": child }),
+            false,
+        );
+        let it = body(&scene, "it");
+        let whole = it.collider_mass();
+        // The geometry's own transform has no part; each tetrahedron has a sixth of its box.
+        let share = child.iter().product::<f64>().abs();
+        let expected = volume * (1.0 + share) / 6.0 * 1000.0;
+        assert!((whole.mass - expected).abs() < 1e-9 * expected, "{scale:?} {child:?}: {}", whole.mass);
+        let center = scale[0] * (0.25 + share * (5.0 + center_x)) / (1.0 + share);
+        assert!((whole.center.x - center).abs() < 1e-9, "{scale:?} {child:?}: {}", whole.center);
+    }
+}
+
+#[test]
+fn a_convex_hull_holds_the_meshes_of_all_nodes_below() {
+    let scene = family(
+        json!({ "scale": [-2, 1, 3] }),
+        json!({ "translation": [100, 0, 0] }),
+        json!({ "translation": [5, 0, 0], "scale": [1, -1, 1] }),
+        true,
+    );
+    let it = body(&scene, "it");
+    let Shape::Hull(hull) = &it.colliders[0].shape else { panic!("{:?}", it.colliders[0].shape) };
+    let (low, high) = it.colliders[0].shape.bounds(&carom::math::Pose::IDENTITY);
+    assert_eq!((low, high), (DVec3::new(-12.0, -1.0, 0.0), DVec3::new(0.0, 1.0, 3.0)));
+    // One corner of the first lies between others: (0, 0, 0), (5, 0, 0) and (1, 0, 0) are in a row.
+    assert_eq!(hull.vertices().len(), 6, "{:?}", hull.vertices());
+    assert!(it.collider_mass().mass > 0.0);
+}
+
 #[test]
 fn a_mesh_follows_shear_that_a_shape_cannot() {
     let accessors = json!([positions(0, 4), indices(1, 5121, 12)]);

@@ -1,15 +1,18 @@
-//! Every pair that has no kernel of its own: hulls, meshes, tapered capsules, cylinders and cones, with anything.
+//! Every pair that has no kernel of its own: hulls, meshes, height fields, tapered capsules, cylinders and cones, with
+//! anything.
 //!
 //! A convex shape is a *core* and a radius around it (`convex.rs`). parry, in double precision, finds the direction of
 //! least gap between two cores: GJK where they are apart, EPA where they overlap (`axis.rs`). The gap along that
 //! direction is then taken from the cores' support points, so it never exceeds the true distance, whatever parry's
-//! tolerance. Contact points come from clipping the two flat sides that face each other (`clip.rs`). A mesh is a set of
-//! triangles, each a core of its own (`surface.rs`). A plane needs nothing but support points.
+//! tolerance. Contact points come from clipping the two flat sides that face each other (`clip.rs`). A mesh or a height
+//! field is a set of triangles (`triangles.rs`), each a core of its own (`surface.rs`). A plane needs nothing but support
+//! points.
 
 mod axis;
 mod clip;
 mod convex;
 mod surface;
+mod triangles;
 
 use crate::collide::{ContactPoint, Manifold};
 use crate::math::{DVec3, Pose};
@@ -17,28 +20,29 @@ use crate::report::Feature;
 use crate::shape::Shape;
 use clip::Candidates;
 use convex::Convex;
+use triangles::{Triangles, triangles_of};
 
 /// A shape as this seam sees it.
 enum Kind<'a> {
     Convex(Convex<'a>),
-    Mesh(&'a crate::mesh::Mesh),
+    Surface(&'a dyn Triangles),
     Plane,
 }
 
 impl<'a> Kind<'a> {
     fn of(shape: &'a Shape) -> Self {
-        match (Convex::of(shape), shape) {
+        match (Convex::of(shape), triangles_of(shape)) {
             (Some(convex), _) => Kind::Convex(convex),
-            (None, Shape::Mesh(mesh)) => Kind::Mesh(mesh),
-            (None, _) => Kind::Plane,
+            (None, Some(surface)) => Kind::Surface(surface),
+            (None, None) => Kind::Plane,
         }
     }
 }
 
 /// As [`crate::collide::separation`]; continuous, and never more than the true distance.
 ///
-/// From a mesh it is cut off at half the other shape's extent or the gap between the boxes around them, whichever is
-/// larger. Two planes, and what has no finite pose, are infinitely far apart.
+/// From a mesh or a height field it is cut off at a quarter of the other shape's extent or the gap between the boxes
+/// around them, whichever is larger. Two planes, and what has no finite pose, are infinitely far apart.
 pub(crate) fn separation(a: &Shape, pose_a: &Pose, b: &Shape, pose_b: &Pose) -> f64 {
     if !is_finite(pose_a) || !is_finite(pose_b) {
         return f64::INFINITY;
@@ -49,44 +53,46 @@ pub(crate) fn separation(a: &Shape, pose_a: &Pose, b: &Shape, pose_b: &Pose) -> 
         }
         (Kind::Plane, Kind::Convex(b)) => plane_separation(pose_a, &b, pose_b),
         (Kind::Convex(a), Kind::Plane) => plane_separation(pose_b, &a, pose_a),
-        (Kind::Plane, Kind::Mesh(mesh)) => surface::plane_separation(pose_a, mesh, pose_b),
-        (Kind::Mesh(mesh), Kind::Plane) => surface::plane_separation(pose_b, mesh, pose_a),
-        (Kind::Mesh(mesh), _) => surface::separation(mesh, pose_a, b, pose_b),
-        (_, Kind::Mesh(mesh)) => surface::separation(mesh, pose_b, a, pose_a),
+        (Kind::Plane, Kind::Surface(surface)) => surface::plane_separation(pose_a, surface, pose_b),
+        (Kind::Surface(surface), Kind::Plane) => surface::plane_separation(pose_b, surface, pose_a),
+        (Kind::Surface(surface), _) => surface::separation(surface, pose_a, b, pose_b),
+        (_, Kind::Surface(surface)) => surface::separation(surface, pose_b, a, pose_a),
         (Kind::Plane, Kind::Plane) => f64::INFINITY,
     }
 }
 
-/// As [`crate::collide::manifolds`]; one for each triangle of a mesh that is struck.
+/// As [`crate::collide::manifolds`]; one for each triangle of a surface that is struck.
 pub(crate) fn manifolds(a: (&Shape, &Pose), b: (&Shape, &Pose), margin: f64, out: &mut Vec<Manifold>) {
     if !is_finite(a.1) || !is_finite(b.1) {
         return;
     }
     let first = out.len();
     let (kind_a, kind_b) = (Kind::of(a.0), Kind::of(b.0));
-    // The functions below put the plane or the mesh first.
+    // The functions below put the plane or the surface first.
     let mut turned = false;
     match (&kind_a, &kind_b) {
         (Kind::Convex(convex_a), Kind::Convex(convex_b)) => {
             out.extend(convex_manifold((convex_a, a.1), (convex_b, b.1), margin, None));
         }
         (Kind::Plane, Kind::Convex(convex)) => out.extend(plane_manifold(a.1, convex, b.1, margin)),
-        (Kind::Plane, Kind::Mesh(mesh)) => out.extend(surface::plane_manifold(a.1, mesh, b.1, margin)),
-        (Kind::Mesh(mesh), Kind::Convex(_) | Kind::Mesh(_)) => {
-            surface::manifolds(mesh, a.1, b, margin, out);
+        (Kind::Plane, Kind::Surface(surface)) => {
+            out.extend(surface::plane_manifold(a.1, *surface, b.1, margin))
+        }
+        (Kind::Surface(surface), Kind::Convex(_) | Kind::Surface(_)) => {
+            surface::manifolds(*surface, a.1, b, margin, out);
         }
         (Kind::Plane, Kind::Plane) => {}
         (Kind::Convex(convex), Kind::Plane) => {
             turned = true;
             out.extend(plane_manifold(b.1, convex, a.1, margin));
         }
-        (Kind::Mesh(mesh), Kind::Plane) => {
+        (Kind::Surface(surface), Kind::Plane) => {
             turned = true;
-            out.extend(surface::plane_manifold(b.1, mesh, a.1, margin));
+            out.extend(surface::plane_manifold(b.1, *surface, a.1, margin));
         }
-        (Kind::Convex(_), Kind::Mesh(mesh)) => {
+        (Kind::Convex(_), Kind::Surface(surface)) => {
             turned = true;
-            surface::manifolds(mesh, b.1, a, margin, out);
+            surface::manifolds(*surface, b.1, a, margin, out);
         }
     }
     if turned {
@@ -107,12 +113,12 @@ fn swapped(manifold: &Manifold) -> Manifold {
     swapped
 }
 
-/// What a mesh adds to the question where one of its triangles touches.
+/// What a surface adds to the question where one of its triangles touches.
 struct OnSurface<'a> {
     /// The normal that the surface allows, in the triangle's frame, in place of the one that the two shapes alone
     /// would give. Where it is another, only points where the two sides face each other along it count.
     correct: &'a dyn Fn(DVec3) -> DVec3,
-    /// What other triangles of the mesh have given already: a point on a shared side is not given twice.
+    /// What other triangles of the surface have given already: a point on a shared side is not given twice.
     known: &'a [Manifold],
 }
 
@@ -131,10 +137,8 @@ fn convex_manifold(
         return None;
     }
     let normal = surface.map_or(least.normal, |surface| (surface.correct)(least.normal));
-    let corrected = normal != least.normal;
-    if corrected {
-        least = axis::Axis { normal, ..least };
-    }
+    let corrected = normal.distance(least.normal) > 1e-9;
+    least.normal = normal;
     let mut candidates = Candidates::new(margin);
     clip::contacts(convex_a, convex_b, &inner, normal, &mut candidates);
     let size = convex_a.core.reach().min(convex_b.core.reach()).max(radii);

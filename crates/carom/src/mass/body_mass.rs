@@ -30,6 +30,8 @@ impl BodyMass {
     /// The mass that `body` moves with: its colliders', with what it says of its own in place of theirs.
     ///
     /// - `mass` scales the colliders' mass and inertia; 0 makes both infinite (the inertia unless it is given).
+    /// - `mass` on colliders that enclose no volume, such as an open mesh, is spread over their surfaces: thin sheets, all
+    ///   of one thickness, so that a uniform density makes them a sheet of uniform area density.
     /// - `center_of_mass` goes before the colliders' centre; the inertia about the centre stays as it is.
     /// - `inertia` goes before the colliders'; 0 on an axis stands for infinite.
     ///
@@ -42,7 +44,9 @@ impl BodyMass {
         if body.motion == Motion::Fixed {
             return Ok(Self::INFINITE);
         }
-        let colliders = body.collider_mass();
+        let solid = body.collider_mass();
+        let is_sheet = body.motion == Motion::Dynamic && body.mass.is_some() && solid.mass <= 0.0;
+        let colliders = if is_sheet { body.sheet_mass() } else { solid };
         let center = match body.center_of_mass {
             Some(center) => {
                 for axis in 0..3 {
@@ -61,7 +65,7 @@ impl BodyMass {
             Some(inertia) => given_inertia(inertia)?,
             None if mass.is_infinite() => (DVec3::INFINITY, DQuat::IDENTITY),
             None if colliders.mass <= 0.0 => {
-                let expected = "`inertia_diagonal` as well, or a collider with volume and density: \
+                let expected = "`inertia_diagonal` as well, or a collider with density and a volume or a surface: \
                                 `mass` alone says nothing of how hard the body is to turn";
                 return Err(Invalid::new("mass", mass, expected));
             }

@@ -1,5 +1,5 @@
 use super::*;
-use crate::body::{Body, Collider, PrincipalInertia};
+use crate::body::{Body, Collider, Motion, PrincipalInertia};
 use crate::math::{DQuat, rotated_diagonal, rotation_from_vector};
 use crate::shape::Shape;
 
@@ -316,9 +316,10 @@ fn what_no_body_can_have_is_refused_with_advice() {
     let nothing = refused(&Body::dynamic());
     assert!(nothing.expected.contains("`mass` together with `inertia_diagonal`"), "{nothing}");
     assert!(refused(&Body::dynamic().mass(2.0)).expected.contains("inertia_diagonal"));
-    let corners = [DVec3::ZERO, DVec3::X, DVec3::Z];
-    let open = Shape::mesh(corners.to_vec(), vec![[0, 1, 2]]).unwrap();
-    assert!(refused(&Body::dynamic().with(open).mass(1.0)).expected.contains("inertia_diagonal"));
+    let mut weightless = Body::dynamic().with(plate(2.0, 4.0)).mass(1.0);
+    assert!(refused(&Body { mass: None, ..weightless.clone() }).value.contains("0 kg"));
+    weightless.colliders[0].density = 0.0;
+    assert!(refused(&weightless).expected.contains("inertia_diagonal"));
 
     let with = |x: f64, y: f64, z: f64, orientation: DQuat| {
         let mut body = club();
@@ -339,4 +340,64 @@ fn what_no_body_can_have_is_refused_with_advice() {
     let mut off = club();
     off.center_of_mass = Some(DVec3::new(0.0, f64::NAN, 0.0));
     assert_eq!(refused(&off).field, "center_of_mass[1]");
+}
+
+/// A rectangle across y.
+fn plate(x: f64, z: f64) -> Shape {
+    let corner = |sign_x: f64, sign_z: f64| DVec3::new(0.5 * x * sign_x, 0.0, 0.5 * z * sign_z);
+    let corners = [corner(-1.0, -1.0), corner(-1.0, 1.0), corner(1.0, 1.0), corner(1.0, -1.0)];
+    Shape::mesh(corners.to_vec(), vec![[0, 1, 2], [0, 2, 3]]).unwrap()
+}
+
+#[test]
+fn a_sheet_has_the_textbook_values() {
+    let Shape::Mesh(mesh) = plate(2.0, 4.0) else { unreachable!() };
+    let found = MassProperties::sheet(mesh.vertices(), mesh.triangles(), 1.5);
+    // m z²/12, the sum of both, m x²/12.
+    let inertia = DMat3::from_diagonal(DVec3::new(16.0, 20.0, 4.0));
+    assert_same(&found, &MassProperties { mass: 12.0, center: DVec3::ZERO, inertia }, 1e-14);
+    // A box of sheet metal is six plates.
+    let size = DVec3::new(1.0, 2.0, 3.0);
+    let far = Pose::new(DVec3::new(1e5, -2e5, 3e5), DQuat::IDENTITY);
+    let shell = MassProperties::sheet(&box_corners(size, &far), &BOX, 2.0);
+    let [x, y, z] = size.to_array();
+    let sides = (0..6).map(|side| {
+        let (axis, sign) = (side % 3, if side < 3 { 0.5 } else { -0.5 });
+        let flat = DVec3::from_array([0, 1, 2].map(|other| if other == axis { 0.0 } else { size[other] }));
+        let area = [y * z, x * z, x * y][axis];
+        let squares = flat * flat * (2.0 * area / 12.0);
+        let diagonal = DVec3::splat(squares.element_sum()) - squares;
+        let center = DVec3::AXES[axis] * (sign * size[axis]) + far.position;
+        MassProperties { mass: 2.0 * area, center, inertia: DMat3::from_diagonal(diagonal) }
+    });
+    assert_same(&shell, &MassProperties::sum(sides), 1e-9);
+    assert_eq!(MassProperties::sheet(&[DVec3::X; 3], &[[0, 1, 2]], 1.0), MassProperties::NONE);
+    assert_eq!(MassProperties::sheet(&[DVec3::X; 3], &[[0, 1, 9]], 1.0), MassProperties::NONE);
+}
+
+#[test]
+fn a_mass_without_a_volume_is_spread_over_the_surfaces() {
+    let place = Pose::new(DVec3::new(3.0, 1.0, -2.0), rotation_from_vector(DVec3::Z * 0.4));
+    let mut body =
+        Body::dynamic().collider(Collider { pose: place, ..Collider::new(plate(2.0, 4.0)) }).mass(12.0);
+    let found = BodyMass::of(&body).unwrap();
+    assert!((found.center - place.position).length() < 1e-12 && found.mass == 12.0);
+    let mut moments = found.moments.to_array();
+    moments.sort_by(f64::total_cmp);
+    assert!((DVec3::from_array(moments) - DVec3::new(4.0, 16.0, 20.0)).length() < 1e-9, "{moments:?}");
+
+    // The densities share it out, as they do for solids.
+    body.colliders.push(Collider { density: 3000.0, ..Collider::new(plate(2.0, 4.0)) });
+    let found = BodyMass::of(&body).unwrap();
+    assert!((found.center - place.position / 4.0).length() < 1e-12, "{}", found.center);
+    // What the body says of its own goes before.
+    body.center_of_mass = Some(DVec3::Y);
+    assert_eq!(BodyMass::of(&body).unwrap().center, DVec3::Y);
+    // One solid among them takes all of it.
+    body.center_of_mass = None;
+    body.colliders.push(Collider::new(Shape::sphere(0.5)));
+    assert_eq!(BodyMass::of(&body).unwrap().center, DVec3::ZERO);
+    // A body that nothing pushes has no mass to spread.
+    let kinematic = Body { motion: Motion::Kinematic, colliders: body.colliders[..1].to_vec(), ..body };
+    assert_eq!(BodyMass::of(&kinematic).unwrap().center, DVec3::ZERO);
 }

@@ -154,19 +154,21 @@ pub(crate) fn measure<L: Lanes>(bundle: &mut Bundle, drifts: &[Row]) {
     }
 }
 
-/// Starts a substep: what each point asks for, and the impulses of the substep before, which act again.
+/// Starts a substep of `1/rate` seconds: what each point asks for, and the impulses of the substep before, which act again.
 ///
-/// A point within its horizon closes its gap (or leaves its overlap, up to `deepest`) at `rate` (1/s) times it: slowly, as a gap closed
-/// at once would ask for a velocity that the next substep has to stop, and a stack would rock on that for ever.
+/// A point that touches, up to a gap of `margin`, may part and not close: to close so small a gap would ask for a velocity that the
+/// next substep has to stop, and a stack would rock on that for ever. One further away, up to the contact's horizon, may
+/// close as far as its gap lets it. What lies beyond is not the contacts' business.
 #[inline(always)]
-pub(crate) fn begin<L: Lanes>(bundle: &mut Bundle, velocities: &mut [Row], [rate, deepest]: [f32; 2]) {
+pub(crate) fn begin<L: Lanes>(bundle: &mut Bundle, velocities: &mut [Row], [margin, rate]: [f32; 2]) {
     for part in 0..LANES / L::WIDTH {
         let horizon = line::<L>(bundle, field::HORIZON, part);
         let never = L::splat(-1e30);
         for point in 0..bundle.points {
             let at = |line: usize| field::of_point(point, line);
             let separation = line::<L>(bundle, at(field::SEPARATION), part);
-            let least = separation.max(L::splat(-deepest)) * L::splat(-rate);
+            let closing = separation * L::splat(-rate);
+            let least = L::select_greater(separation, L::splat(margin), [closing, L::splat(0.0)]);
             let least = L::select_greater(separation, horizon, [never, least]);
             least.store(&mut bundle.lines[at(field::LEAST)], part);
         }

@@ -58,6 +58,8 @@ pub(crate) struct Effort {
     /// An island is done when a sweep changes no velocity by more than this, m/s; a small one by more than `exactness`.
     pub agreement: f32,
     pub exactness: f32,
+    /// Bodies of an island that move no faster against each other than this are about to rest, and worth that exactness, m/s.
+    pub quiet: f32,
     /// Sweeps that every contact gets.
     pub sweeps: u32,
     /// An island may take so many sweeps times contacts before it has to go on in the next substep.
@@ -90,6 +92,28 @@ struct Islands {
     /// Contacts and bodies in each island.
     sizes: Vec<u32>,
     bodies: Vec<usize>,
+}
+
+/// The box around the velocities of an island's bodies.
+#[derive(Clone, Copy)]
+struct Spread {
+    low: [f32; 3],
+    high: [f32; 3],
+}
+
+impl Spread {
+    const NONE: Spread = Spread { low: [f32::MAX; 3], high: [f32::MIN; 3] };
+
+    fn include(&mut self, velocity: &Row) {
+        for axis in 0..3 {
+            self.low[axis] = self.low[axis].min(velocity.0[axis]);
+            self.high[axis] = self.high[axis].max(velocity.0[axis]);
+        }
+    }
+
+    fn width(&self) -> f32 {
+        (0..3).map(|axis| self.high[axis] - self.low[axis]).fold(0.0, f32::max)
+    }
 }
 
 /// A bundle whose contacts do not agree yet, and where the search for their impulses is going.
@@ -228,8 +252,9 @@ impl Graph {
     }
 
     /// Lets the impulses of the last substep act again.
-    pub fn begin(&mut self, velocities: &mut [Row], closing: [f32; 2]) {
-        self.each_bundle(|bundle| contact::begin::<Wide>(bundle, velocities, closing));
+    pub fn begin(&mut self, velocities: &mut [Row], margin: f64, substep: f64) {
+        let limits = [margin as f32, (1.0 / substep) as f32];
+        self.each_bundle(|bundle| contact::begin::<Wide>(bundle, velocities, limits));
     }
 
     /// Sweeps until velocities agree, island by island. `mobility` tells of a row how impulses move it, if they do.
@@ -261,7 +286,16 @@ impl Graph {
                 return;
             }
             for _ in 0..ROUND {
-                self.search(velocities, &mut searches, &mut changed);
+                if std::env::var("P").is_ok() {
+                    for search in &searches {
+                        contact::sweep::<Wide>(
+                            &mut self.colors[search.color].bundles[search.bundle],
+                            velocities,
+                        );
+                    }
+                } else {
+                    self.search(velocities, &mut searches, &mut changed);
+                }
             }
             for search in &searches {
                 contact::sweep::<Wide>(&mut self.colors[search.color].bundles[search.bundle], velocities);
@@ -277,8 +311,10 @@ impl Graph {
         effort: Effort,
         mobility: impl Fn(u32) -> Option<Mobility>,
     ) {
-        let mut members: Vec<Vec<(usize, usize)>> = vec![Vec::new(); self.islands.sizes.len()];
-        let mut is_open = vec![false; self.islands.sizes.len()];
+        let count = self.islands.sizes.len();
+        let mut members: Vec<Vec<(usize, usize)>> = vec![Vec::new(); count];
+        let mut is_open = vec![false; count];
+        let mut spread = vec![Spread::NONE; count];
         for color in self.order() {
             for lane in 0..self.colors[color].contacts.len() {
                 let bundle = &self.colors[color].bundles[lane / LANES];
@@ -286,8 +322,14 @@ impl Graph {
                 if self.islands.bodies[island] <= direct::BODIES {
                     members[island].push((color, lane));
                     is_open[island] |= bundle.get(lane % LANES, field::RESIDUAL) > effort.exactness;
+                    for row in [bundle.a[lane % LANES], bundle.b[lane % LANES]] {
+                        spread[island].include(&velocities[row as usize]);
+                    }
                 }
             }
+        }
+        for (island, spread) in spread.iter().enumerate() {
+            is_open[island] &= spread.width() <= effort.quiet;
         }
         for (island, members) in members.iter().enumerate().filter(|(island, _)| is_open[*island]) {
             let _ = island;

@@ -26,6 +26,8 @@ pub(crate) struct Terms {
     pub surface: Surface,
     /// Gap up to which two points count as touching, m.
     pub margin: f64,
+    /// Gap up to which contacts see to a point at all, m.
+    pub horizon: f64,
 }
 
 /// Impulses that a contact starts from.
@@ -124,7 +126,7 @@ pub(crate) fn lane(
     put(field::TWIST, remembered.twist);
     put(field::STATIC_FRICTION, terms.surface.static_friction);
     put(field::DYNAMIC_FRICTION, terms.surface.dynamic_friction);
-    put(field::HORIZON, terms.margin);
+    put(field::HORIZON, terms.horizon);
     lane
 }
 

@@ -189,6 +189,9 @@ impl<'a> Events<'a> {
             self.pairs[index].now.hits += 1;
             let surface = self.pairs[index].surface;
             self.impacts.extend(strike(self.bodies, colliders, &touch, &surface, time));
+            if !rests && -touch.closing_speed * surface.restitution <= touch.rest_speed {
+                self.rest.take(self.bodies, self.pairs, index, (self.law, span));
+            }
             for row in rows {
                 self.reroute(row, span);
             }

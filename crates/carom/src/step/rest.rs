@@ -34,13 +34,11 @@ const DRIFT_WITHIN: f64 = 2e-2;
 /// islands, which are solved directly, when nothing is further off than the second.
 const AGREEMENT: f64 = 1e-3;
 const EXACTNESS: f64 = 1e-5;
+const QUIET: f64 = 3.0;
 
 /// Sweeps that every contact gets in a substep, and contacts times sweeps that an island may take.
 const SWEEPS: u32 = 2;
 const BUDGET: u32 = 40_000;
-
-/// Share of a gap within the contact margin that is closed in a substep.
-const CLOSING: f64 = 0.1;
 
 /// Share of an overlap that is pushed out at the end of a step, and of the contact margin that is left.
 const PUSH_OUT: f32 = 0.5;
@@ -179,7 +177,7 @@ impl Rest {
                 roundness: collider.shape.roundness(local.0, local.1),
             }
         };
-        let terms = Terms { surface: pair.surface, margin };
+        let terms = Terms { surface: pair.surface, margin, horizon: horizon(pair, grain, law) };
         let old = std::mem::take(&mut pair.supports);
         let lanes: Vec<_> = manifolds
             .iter()
@@ -321,12 +319,16 @@ impl Rest {
             self.rows.read_velocity(bodies, row, gain);
             gains.push((gain, free.torque * substep, self.rows.velocities[row]));
         }
-        let closing = [CLOSING / substep, LEFT_IN * law.contact_margin()].map(|value| value as f32);
-        self.graph.begin(&mut self.rows.velocities, closing);
+        fn knob(n: &str, d: f64) -> f64 {
+            std::env::var(n).ok().and_then(|x| x.parse().ok()).unwrap_or(d)
+        }
+        self.graph.begin(&mut self.rows.velocities, law.contact_margin(), substep);
         let persisting: Vec<Row> = held.iter().map(|&row| self.rows.velocities[row]).collect();
-        let agreement = (AGREEMENT * law.gravity.length() * substep).max(1e-7) as f32;
+        let agreement = (knob("A", AGREEMENT) * law.gravity.length() * substep).max(1e-7) as f32;
         let exactness = (EXACTNESS * law.gravity.length() * substep).max(1e-7) as f32;
-        let effort = Effort { agreement, exactness, sweeps: SWEEPS, budget: BUDGET };
+        let quiet = (QUIET * law.gravity.length() * substep) as f32;
+        let effort =
+            Effort { agreement, exactness, quiet, sweeps: SWEEPS, budget: knob("B", BUDGET as f64) as u32 };
         self.graph.solve(&mut self.rows.velocities, effort, |row| {
             let (state, constants) = (&bodies.states[row as usize], &bodies.constants[row as usize]);
             constants.is_movable().then(|| Mobility {
@@ -387,15 +389,19 @@ impl Rest {
 
     /// Whether all points of a pair that rests are so near that the contacts have them all.
     pub fn is_closed(&self, pair: &Pair, law: RestLaw) -> bool {
-        let margin = law.contact_margin() as f32;
-        pair.supports.iter().all(|support| self.graph.get(support.contact, field::WIDEST) <= margin)
+        let _ = law;
+        pair.supports.iter().all(|support| {
+            let get = |field: usize| self.graph.get(support.contact, field);
+            get(field::WIDEST) <= get(field::HORIZON)
+        })
     }
 
     /// Whether a point of a pair that rests will strike in the time left of a substep: one that comes from further away than
     /// contacts reach, or one that a collision has set in motion.
     pub fn is_driven(&self, bodies: &Bodies, pair: &Pair, law: RestLaw, span: Span) -> bool {
-        let (margin, left) = (law.contact_margin(), span.until - span.from);
+        let left = span.until - span.from;
         let grain = bodies.grains[pair.rows[0]].min(bodies.grains[pair.rows[1]]);
+        let horizon = horizon(pair, grain, law);
         let pressed = if pair.surface.restitution > 0.0 { 0.0 } else { PRESSED * grain / law.substep };
         let motion = pair.rows.map(|row| {
             let state = &bodies.states[row];
@@ -415,7 +421,7 @@ impl Rest {
                 let speed = relative + (spin_b.x * arm_b.y - spin_b.y * arm_b.x)
                     - (spin_a.x * arm_a.y - spin_a.y * arm_a.x);
                 let gap = get(at(field::SEPARATION));
-                let slowest = if gap > margin { law.drift_speed() } else { law.drift_speed().max(pressed) };
+                let slowest = if gap > horizon { law.drift_speed() } else { law.drift_speed().max(pressed) };
                 speed < -slowest && gap + speed * left < 0.0
             })
         })
@@ -425,6 +431,17 @@ impl Rest {
 /// A resting pair that loses its speed in a collision is left to the contacts if it would go no further into the other body
 /// within a substep than this share of the smaller reach.
 const PRESSED: f64 = 0.02;
+
+/// Gap (m) up to which the contacts of a resting pair see to a point: what does not bounce and comes no faster than contacts can
+/// be left to deal with is stopped by them, at the end of the substep in which it touches. Faster points, and all that bounce,
+/// strike at their own instant.
+fn horizon(pair: &Pair, grain: f64, law: RestLaw) -> f64 {
+    if pair.surface.restitution > 0.0 {
+        law.contact_margin()
+    } else {
+        law.contact_margin().max(PRESSED * grain)
+    }
+}
 
 /// Where the sweeps change a body's velocity by less than this share of what gravity does, the forces on it persist.
 const STEADY: f64 = 0.05;

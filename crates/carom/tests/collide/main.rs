@@ -2,6 +2,7 @@
 
 mod degenerate;
 mod features;
+mod height_field;
 mod oracle;
 mod properties;
 mod support;

@@ -26,7 +26,7 @@ pub(super) enum Core<'a> {
     Frustum { half: f64, bottom: f64, top: f64 },
     /// A polyhedron.
     Hull(&'a Hull),
-    /// A triangle of a mesh, with the numbers it and its corners have there.
+    /// A triangle of a surface, with the numbers it and its corners have there.
     Triangle { corners: [DVec3; 3], index: u32, vertices: [u32; 3] },
 }
 
@@ -79,7 +79,7 @@ impl Outline {
 }
 
 impl<'a> Convex<'a> {
-    /// `None` for planes and meshes.
+    /// `None` for planes, meshes and height fields.
     pub fn of(shape: &'a Shape) -> Option<Self> {
         Some(match *shape {
             Shape::Sphere { radius } => Self { core: Core::Point, radius },
@@ -95,7 +95,7 @@ impl<'a> Convex<'a> {
                 radius: 0.0,
             },
             Shape::Hull(ref hull) => Self { core: Core::Hull(hull), radius: 0.0 },
-            Shape::Plane | Shape::Mesh(_) => return None,
+            Shape::Plane | Shape::Mesh(_) | Shape::HeightField(_) => return None,
         })
     }
 }

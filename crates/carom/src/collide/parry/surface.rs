@@ -1,40 +1,28 @@
-//! Meshes: every triangle near the other shape is a convex core of its own.
+//! Meshes and height fields: every triangle near the other shape is a convex core of its own.
 
 use super::clip::Candidates;
 use super::convex::{Convex, Core};
+use super::triangles::{Triangles, triangles_of};
 use super::{OnSurface, axis, convex_manifold};
 use crate::collide::{ContactPoint, Manifold};
 use crate::math::{DVec3, Pose};
-use crate::mesh::Mesh;
 use crate::report::Feature;
 use crate::shape::Shape;
-use parry3d_f64::bounding_volume::Aabb;
+use std::cell::Cell;
 
-fn triangle_core(mesh: &Mesh, index: u32) -> Convex<'static> {
-    let corners = mesh.corners(index);
-    let vertices = mesh.triangles()[index as usize];
+fn triangle_core(surface: &dyn Triangles, index: u32) -> Convex<'static> {
+    let (corners, vertices) = (surface.corners(index), surface.corner_numbers(index));
     Convex { core: Core::Triangle { corners, index, vertices }, radius: 0.0 }
 }
 
-fn has_area([a, b, c]: [DVec3; 3]) -> bool {
-    (b - a).cross(c - a) != DVec3::ZERO
-}
-
-/// The triangles whose boxes come within `margin` of the box from `low` to `high` (mesh frame), by number.
-fn nearby(mesh: &Mesh, low: DVec3, high: DVec3, margin: f64) -> Vec<u32> {
+/// The triangles whose boxes come within `margin` of the box from `low` to `high` (the surface's frame), by number.
+fn nearby(surface: &dyn Triangles, low: DVec3, high: DVec3, margin: f64) -> Vec<u32> {
     let grown = DVec3::splat(margin.max(0.0));
-    let search = Aabb::new(low - grown, high + grown);
-    let mut found: Vec<u32> = mesh
-        .tree()
-        .intersect_aabb(&search)
-        .filter(|&index| (index as usize) < mesh.triangles().len() && has_area(mesh.corners(index)))
-        .collect();
-    found.sort_unstable();
-    found
+    surface.within(low - grown, high + grown)
 }
 
 /// A gap (m) between a triangle and a convex shape that their distance is no less than: the widest along a few
-/// directions, at the price of a few support points. `inner` is the other's pose in the mesh's frame.
+/// directions, at the price of a few support points. `inner` is the other's pose in the surface's frame.
 fn gap_at_least(triangle: &Convex, convex: &Convex, inner: &Pose) -> f64 {
     let Core::Triangle { corners: [a, b, c], .. } = triangle.core else { return f64::NEG_INFINITY };
     let middle = inner.transform_point(convex.core.middle());
@@ -71,33 +59,61 @@ fn closest_point(corners: [DVec3; 3], point: DVec3) -> DVec3 {
 }
 
 /// The least separation of any triangle from `other`, which is no plane.
-pub(super) fn separation(mesh: &Mesh, pose: &Pose, other: &Shape, other_pose: &Pose) -> f64 {
+pub(super) fn separation(surface: &dyn Triangles, pose: &Pose, other: &Shape, other_pose: &Pose) -> f64 {
     let inner = pose.relative(other_pose);
     let (low, high) = other.bounds(&inner);
-    let (mesh_low, mesh_high) = mesh.bounds();
-    let boxes_apart = (mesh_low - high).max(low - mesh_high).max(DVec3::ZERO).length();
-    // What is not found by the search is farther off than this.
-    let horizon = (0.25 * (high - low).max_element()).max(boxes_apart);
-    let near = nearby(mesh, low, high, horizon);
-    match (Convex::of(other), other) {
-        (Some(convex), _) => least_separation(mesh, near, &convex, &inner, horizon),
-        (None, Shape::Mesh(other)) => {
+    let (surface_low, surface_high) = surface.bounds();
+    let boxes_apart = (surface_low - high).max(low - surface_high).max(DVec3::ZERO).length();
+    let extent = (high - low).max_element();
+    // What is not found by a search is farther off than its horizon. Mostly the other is close, and a short look will do.
+    let mut farthest = boxes_apart;
+    for horizon in [extent / 256.0, extent / 32.0, extent / 4.0] {
+        if boxes_apart >= horizon {
+            continue;
+        }
+        farthest = separation_within((surface, pose), (other, other_pose), (low, high), horizon);
+        if farthest < horizon {
+            break;
+        }
+    }
+    farthest
+}
+
+/// The least separation of the triangles of `surface` from `other`, which lies between `low` and `high` in the surface's
+/// frame, if it is below `horizon` (m); else that.
+fn separation_within(
+    (surface, pose): (&dyn Triangles, &Pose),
+    (other, other_pose): (&Shape, &Pose),
+    (low, high): (DVec3, DVec3),
+    horizon: f64,
+) -> f64 {
+    let near = nearby(surface, low, high, horizon);
+    let inner = pose.relative(other_pose);
+    match (Convex::of(other), triangles_of(other)) {
+        (Some(convex), _) => least_separation(surface, near, &convex, &inner, horizon),
+        (None, Some(other)) => {
             let turned = other_pose.relative(pose);
             near.into_iter().fold(horizon, |least, index| {
-                let triangle = triangle_core(mesh, index);
-                let (low, high) = triangle_bounds(mesh, index, &turned);
+                let triangle = triangle_core(surface, index);
+                let (low, high) = triangle_bounds(surface, index, &turned);
                 let found = nearby(other, low, high, least.min(horizon));
                 least_separation(other, found, &triangle, &turned, least)
             })
         }
-        (None, _) => horizon,
+        (None, None) => horizon,
     }
 }
 
 /// The least separation of the triangles `near` from a convex shape, if it is below `least`. What is sure to be no
 /// closer than something else is not measured: likely ones go first.
-fn least_separation(mesh: &Mesh, near: Vec<u32>, convex: &Convex, inner: &Pose, least: f64) -> f64 {
-    let bound = |index: u32| gap_at_least(&triangle_core(mesh, index), convex, inner);
+fn least_separation(
+    surface: &dyn Triangles,
+    near: Vec<u32>,
+    convex: &Convex,
+    inner: &Pose,
+    least: f64,
+) -> f64 {
+    let bound = |index: u32| gap_at_least(&triangle_core(surface, index), convex, inner);
     let mut queue: Vec<(f64, u32)> = near.into_iter().map(|index| (bound(index), index)).collect();
     queue.sort_unstable_by(|one, other| one.0.total_cmp(&other.0).then(one.1.cmp(&other.1)));
     let mut least = least;
@@ -106,7 +122,7 @@ fn least_separation(mesh: &Mesh, near: Vec<u32>, convex: &Convex, inner: &Pose, 
         if bound > least.max(0.0) {
             break;
         }
-        let triangle = triangle_core(mesh, index);
+        let triangle = triangle_core(surface, index);
         let limit = least.max(0.0) + convex.radius;
         if let Some(axis) = axis::gap_within(&triangle.core, &convex.core, inner, limit) {
             least = least.min(axis.gap - convex.radius);
@@ -115,80 +131,125 @@ fn least_separation(mesh: &Mesh, near: Vec<u32>, convex: &Convex, inner: &Pose, 
     least
 }
 
-/// One manifold for each triangle that is struck; the mesh goes first.
+/// One manifold for each triangle that is struck; the surface goes first.
 pub(super) fn manifolds(
-    mesh: &Mesh,
+    surface: &dyn Triangles,
     pose: &Pose,
     other: (&Shape, &Pose),
     margin: f64,
     out: &mut Vec<Manifold>,
 ) {
+    let (low, high) = other.0.bounds(&pose.relative(other.1));
+    let near = nearby(surface, low, high, margin);
+    match (Convex::of(other.0), triangles_of(other.0)) {
+        (Some(convex), _) => convex_manifolds((surface, pose), (&convex, other.1), &near, margin, out),
+        (None, Some(other_surface)) => {
+            surface_manifolds((surface, pose), (other_surface, other.1), &near, margin, out);
+        }
+        (None, None) => {}
+    }
+}
+
+/// The manifolds of the triangles `near` with a convex shape.
+///
+/// Where their corrections leave nothing of a touch (on a tip between ridges and valleys, or deep in a border), the triangle
+/// that is deepest in has it along its own shortest way out.
+fn convex_manifolds(
+    (surface, pose): (&dyn Triangles, &Pose),
+    (convex, other_pose): (&Convex, &Pose),
+    near: &[u32],
+    margin: f64,
+    out: &mut Vec<Manifold>,
+) {
     let first = out.len();
-    let inner = pose.relative(other.1);
-    let (low, high) = other.0.bounds(&inner);
+    let inner = pose.relative(other_pose);
+    let middle = inner.transform_point(convex.core.middle());
     // Rounding must not turn away what is just near enough.
-    let slack = 1e-9 * (high - low).max_element();
-    for index in nearby(mesh, low, high, margin) {
-        let triangle = triangle_core(mesh, index);
-        match (Convex::of(other.0), other.0) {
-            (Some(convex), _) => {
-                if gap_at_least(&triangle, &convex, &inner) > margin + slack {
-                    continue;
-                }
-                let middle = inner.transform_point(convex.core.middle());
-                let correct = |normal: DVec3| surface_normal(mesh, index, normal, middle);
-                let surface = OnSurface { correct: &correct, known: &out[first..] };
-                let found = convex_manifold((&triangle, pose), (&convex, other.1), margin, Some(&surface));
-                out.extend(found);
-            }
-            (None, Shape::Mesh(other_mesh)) => {
-                let (low, high) = triangle_bounds(mesh, index, &other.1.relative(pose));
-                for other_index in nearby(other_mesh, low, high, margin) {
-                    let other_triangle = triangle_core(other_mesh, other_index);
-                    let surface = OnSurface { correct: &|normal| normal, known: &out[first..] };
-                    let other_triangle = (&other_triangle, other.1);
-                    let found = convex_manifold((&triangle, pose), other_triangle, margin, Some(&surface));
-                    out.extend(found);
-                }
-            }
-            (None, _) => {}
+    let slack = 1e-9 * (convex.core.reach() + convex.radius);
+    let mut touched = Vec::new();
+    for &index in near {
+        let triangle = triangle_core(surface, index);
+        if gap_at_least(&triangle, convex, &inner) > margin + slack {
+            continue;
+        }
+        // Whoever asks for the normal has found the two within the margin.
+        let touches = Cell::new(false);
+        let correct = |normal: DVec3| {
+            touches.set(true);
+            surface_normal(surface, index, normal, middle)
+        };
+        let around = OnSurface { correct: &correct, known: &out[first..] };
+        let found = convex_manifold((&triangle, pose), (convex, other_pose), margin, Some(&around));
+        out.extend(found);
+        if touches.get() {
+            touched.push(index);
+        }
+    }
+    if out.len() > first {
+        return;
+    }
+    let gap = |index: u32| axis::least_gap(&triangle_core(surface, index).core, &convex.core, &inner).gap;
+    let gaps = touched.into_iter().map(|index| (gap(index), index));
+    if let Some((_, deepest)) = gaps.min_by(|one, other| one.0.total_cmp(&other.0)) {
+        let triangle = triangle_core(surface, deepest);
+        out.extend(convex_manifold((&triangle, pose), (convex, other_pose), margin, None));
+    }
+}
+
+/// The manifolds of the triangles `near` with those of another surface, each by its own shortest way out.
+fn surface_manifolds(
+    (surface, pose): (&dyn Triangles, &Pose),
+    (other, other_pose): (&dyn Triangles, &Pose),
+    near: &[u32],
+    margin: f64,
+    out: &mut Vec<Manifold>,
+) {
+    let first = out.len();
+    let turned = other_pose.relative(pose);
+    for &index in near {
+        let triangle = triangle_core(surface, index);
+        let (low, high) = triangle_bounds(surface, index, &turned);
+        for other_index in nearby(other, low, high, margin) {
+            let other_triangle = triangle_core(other, other_index);
+            let around = OnSurface { correct: &|normal| normal, known: &out[first..] };
+            let found =
+                convex_manifold((&triangle, pose), (&other_triangle, other_pose), margin, Some(&around));
+            out.extend(found);
         }
     }
 }
 
-fn triangle_bounds(mesh: &Mesh, index: u32, pose: &Pose) -> (DVec3, DVec3) {
-    let corners = mesh.corners(index).map(|corner| pose.transform_point(corner));
+fn triangle_bounds(surface: &dyn Triangles, index: u32, pose: &Pose) -> (DVec3, DVec3) {
+    let corners = surface.corners(index).map(|corner| pose.transform_point(corner));
     (corners[0].min(corners[1]).min(corners[2]), corners[0].max(corners[1]).max(corners[2]))
 }
 
-/// The normal that the surface allows a contact on this triangle: `normal`, the triangle's own, or the neighbour's.
+/// The normal that the surface allows a contact on this triangle: `normal`, the triangle's own, the neighbour's, or one
+/// between them.
 ///
 /// Over the side that a triangle shares with a neighbour, the shortest way out of the triangle may lead sideways, into
 /// the neighbour: a box sliding over a floor of triangles would trip on their seams. Where the neighbour goes on flat
-/// or rises, only the triangle's own normal is true; where it falls away, normals between the two. At a border all are.
-/// All in the mesh's frame; `middle` lies inside the other shape.
-fn surface_normal(mesh: &Mesh, index: u32, normal: DVec3, middle: DVec3) -> DVec3 {
+/// or rises, nothing of the normal may lead over that side; where it falls away, the neighbour's own normal is the
+/// steepest. At a border all are true. All in the surface's frame; `middle` lies inside the other shape.
+fn surface_normal(surface: &dyn Triangles, index: u32, normal: DVec3, middle: DVec3) -> DVec3 {
     const FLAT: f64 = 1e-6;
-    let corners = mesh.corners(index);
+    const ROUNDING: f64 = 1e-12;
+    let corners = surface.corners(index);
     let anticlockwise = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize_or_zero();
     let above = normal.dot(anticlockwise);
     let above = if above.abs() > 1e-3 { above } else { (middle - corners[0]).dot(anticlockwise) };
     let own = if above < 0.0 { -anticlockwise } else { anticlockwise };
     let sideways = normal - own * normal.dot(own);
     if sideways.length() <= FLAT {
-        return normal;
+        return if sideways.length() <= ROUNDING { own } else { normal };
     }
-    let neighbours = mesh.neighbours(index);
-    let mut allowed = normal;
-    for side in 0..3 {
+    let neighbours = surface.neighbours(index);
+    let (mut left, mut steepest) = (normal, None);
+    for (side, outward, share) in sides_crossed(corners, anticlockwise, sideways) {
+        let Some(neighbour) = neighbours[side].filter(|_| share > FLAT) else { continue };
         let (from, to) = (corners[side], corners[(side + 1) % 3]);
         let along = (to - from).normalize_or_zero();
-        let outward = along.cross(anticlockwise);
-        if sideways.dot(outward) <= FLAT {
-            continue;
-        }
-        let Some(neighbour) = neighbours[side] else { continue };
-        let beyond = mesh.corners(neighbour).map(|corner| {
+        let beyond = surface.corners(neighbour).map(|corner| {
             let reach = corner - from;
             reach - along * reach.dot(along)
         });
@@ -196,36 +257,64 @@ fn surface_normal(mesh: &Mesh, index: u32, normal: DVec3, middle: DVec3) -> DVec
             beyond.into_iter().max_by(|one, other| one.length_squared().total_cmp(&other.length_squared()));
         let onward = longest.unwrap_or(DVec3::ZERO).normalize_or_zero();
         if onward.dot(own) >= -FLAT {
-            return own;
+            left -= outward * share;
+            continue;
         }
         // The neighbour's normal on this side, on the far side of the ridge from our own.
         let across = along.cross(onward).normalize_or_zero();
         let theirs = if across.dot(outward) < 0.0 { -across } else { across };
-        if allowed.dot(own) < theirs.dot(own) {
-            allowed = theirs;
+        if steepest.is_none_or(|steepest: DVec3| steepest.dot(own) < theirs.dot(own)) {
+            steepest = Some(theirs);
         }
     }
-    allowed
+    if left != normal {
+        let remains = left - own * left.dot(own);
+        left = if remains.length() <= FLAT { own } else { left.normalize_or(own) };
+    }
+    steepest.filter(|steepest| left.dot(own) < steepest.dot(own)).unwrap_or(left)
+}
+
+/// The two sides of a triangle that meet at its corner farthest `sideways` (a vector in its plane), each with its outward
+/// normal in the plane and with how much of that `sideways` takes: it is the sum of the two, and no share is negative.
+fn sides_crossed(corners: [DVec3; 3], anticlockwise: DVec3, sideways: DVec3) -> [(usize, DVec3, f64); 2] {
+    let height = |corner: usize| corners[corner].dot(sideways);
+    let farthest = (1..3).fold(0, |best, corner| if height(corner) > height(best) { corner } else { best });
+    let (before, after) = ((farthest + 2) % 3, farthest);
+    let along = |side: usize| (corners[(side + 1) % 3] - corners[side]).normalize_or_zero();
+    let outward = |side: usize| along(side).cross(anticlockwise);
+    // The other side's direction has no part in its own normal, so it tells the first one's share.
+    let share = |side: usize, other: usize| {
+        let turn = outward(side).dot(along(other));
+        if turn == 0.0 { 0.0 } else { sideways.dot(along(other)) / turn }
+    };
+    [(before, outward(before), share(before, after)), (after, outward(after), share(after, before))]
 }
 
 /// Height (m) of the lowest corner above the plane.
-pub(super) fn plane_separation(plane: &Pose, mesh: &Mesh, pose: &Pose) -> f64 {
+pub(super) fn plane_separation(plane: &Pose, surface: &dyn Triangles, pose: &Pose) -> f64 {
     let up = plane.rotation * DVec3::Y;
-    let height =
-        |index: &u32| (pose.transform_point(mesh.vertices()[*index as usize]) - plane.position).dot(up);
-    mesh.triangles().iter().flatten().map(height).fold(f64::INFINITY, f64::min)
+    let mut lowest = f64::INFINITY;
+    surface.visit_corners(&mut |corner, _| {
+        lowest = lowest.min((pose.transform_point(corner) - plane.position).dot(up));
+    });
+    lowest
 }
 
 /// The plane goes first: the normal is the plane's own.
-pub(super) fn plane_manifold(plane: &Pose, mesh: &Mesh, pose: &Pose, margin: f64) -> Option<Manifold> {
+pub(super) fn plane_manifold(
+    plane: &Pose,
+    surface: &dyn Triangles,
+    pose: &Pose,
+    margin: f64,
+) -> Option<Manifold> {
     let up = plane.rotation * DVec3::Y;
     let mut candidates = Candidates::new(margin);
-    for &vertex in mesh.triangles().iter().flatten() {
-        let corner = pose.transform_point(mesh.vertices()[vertex as usize]);
+    surface.visit_corners(&mut |corner, vertex| {
+        let corner = pose.transform_point(corner);
         let separation = (corner - plane.position).dot(up);
         let point = corner - up * (0.5 * separation);
         let (feature_a, feature_b) = (Feature::Surface, Feature::Vertex(vertex));
         candidates.push(ContactPoint { point, separation, feature_a, feature_b });
-    }
+    });
     candidates.reduced(up)
 }

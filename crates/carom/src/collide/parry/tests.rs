@@ -78,7 +78,7 @@ fn farthest(shape: &Shape, pose: &Pose, direction: DVec3) -> DVec3 {
             vec![y(0.5 * height) + rim * *radius_top, y(-0.5 * height) + rim * *radius_bottom]
         }
         Shape::Hull(hull) => hull.vertices().to_vec(),
-        Shape::Plane | Shape::Mesh(_) => unreachable!("no farthest point"),
+        Shape::Plane | Shape::Mesh(_) | Shape::HeightField(_) => unreachable!("no farthest point"),
     };
     let best = points.into_iter().max_by(|one, other| one.dot(local).total_cmp(&other.dot(local)));
     pose.transform_point(best.unwrap())
@@ -502,4 +502,33 @@ fn what_a_mesh_leaves_unmeasured_changes_nothing() {
             assert!(manifolds.len() <= gaps.iter().filter(|&&gap| gap <= margin).count());
         }
     }
+}
+
+#[test]
+fn a_tip_between_ridges_and_valleys_carries_a_ball() {
+    // Every triangle of the star has a ridge on one side and a valley on the other.
+    let ring = (0..8).map(|k| {
+        let (sine, cosine) = (f64::from(k) * std::f64::consts::FRAC_PI_4).sin_cos();
+        let (radius, height) = if k % 2 == 0 { (1.0, -0.3) } else { (0.4, -0.6) };
+        DVec3::new(radius * sine, height, radius * cosine)
+    });
+    let vertices: Vec<DVec3> = [DVec3::ZERO].into_iter().chain(ring).collect();
+    let star = Shape::mesh(vertices, (0..8).map(|k| [0, 1 + k, 1 + (k + 1) % 8]).collect()).unwrap();
+    for depth in [1e-3, 1e-9, 0.0] {
+        let ball = at(0.0, 0.2 - depth, 0.0);
+        let found = checked_manifolds((&star, &Pose::IDENTITY), (&Shape::sphere(0.2), &ball), 1e-6);
+        assert!((least(&found) + depth).abs() < 1e-9, "{depth}: {found:?}");
+        assert!(found[0].normal.distance(DVec3::Y) < 1e-6);
+    }
+}
+
+#[test]
+fn a_border_beside_an_obtuse_corner_is_a_border() {
+    // The border lies along x; the side that the two triangles share leans over it.
+    let corners = [DVec3::ZERO, DVec3::X, DVec3::new(-1.0, 0.0, -1.0), DVec3::new(-2.0, 0.0, 0.0)];
+    let floor = Shape::mesh(corners.to_vec(), vec![[0, 1, 2], [0, 2, 3]]).unwrap();
+    let beside = at(0.1, 0.4, 0.3);
+    let found = checked_manifolds((&floor, &Pose::IDENTITY), (&Shape::sphere(0.5), &beside), 0.01);
+    assert_eq!(found.len(), 1);
+    assert!(found[0].normal.distance(DVec3::new(0.0, 0.8, 0.6)) < 1e-9, "{}", found[0].normal);
 }
