@@ -50,7 +50,7 @@ pub struct Arguments {
     pub settle: Option<f64>,
 
     /// A measurement that takes longer stops where it is, and says so
-    #[arg(long, value_name = "SECONDS", default_value = "600", value_parser = seconds)]
+    #[arg(long, value_name = "SECONDS", default_value = "600", value_parser = limit)]
     pub limit: f64,
 
     /// Write everything that was measured to this file
@@ -131,6 +131,12 @@ fn seconds(text: &str) -> Result<f64, String> {
         .ok()
         .filter(|number: &f64| *number > 0.0 && number.is_finite())
         .ok_or_else(|| "expected seconds".into())
+}
+
+/// A day is enough for any measurement.
+fn limit(text: &str) -> Result<f64, String> {
+    seconds(text)
+        .and_then(|limit| if limit <= 86_400.0 { Ok(limit) } else { Err("expected at most 86400".into()) })
 }
 
 /// What can be asked for.

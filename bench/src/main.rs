@@ -42,7 +42,7 @@ fn main() -> ExitCode {
 fn run() -> Result<ExitCode, String> {
     let arguments = Arguments::parse();
     if let Some(job) = &arguments.worker {
-        print(&worker::answer(job)?)?;
+        print(&worker::serve(job)?)?;
         return Ok(ExitCode::SUCCESS);
     }
     let results = rounds::run(&arguments)?;

@@ -80,7 +80,7 @@ fn speed(case: &Case) -> Table {
 /// The ratio of least means, and its spread over the rounds.
 fn ratio(ratio: Option<Ratio>) -> [String; 2] {
     match ratio {
-        Some(Ratio { least, low, high }) => [format!("{least:.2}"), format!("{low:.2} to {high:.2}")],
+        Some(Ratio { least, low, high }) => [short(least), format!("{} to {}", short(low), short(high))],
         None => ["–".to_string(), String::new()],
     }
 }
