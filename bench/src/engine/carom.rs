@@ -21,6 +21,7 @@ struct Carom {
 }
 
 fn start(conditions: Conditions) -> Box<dyn Engine> {
+    assert!(conditions.threads <= ENTRY.max_threads, "no more threads than the entry promises");
     let gravity = wide(conditions.gravity);
     let world = World::with_settings(Settings { gravity, ..Settings::default() });
     Box::new(Carom { world, bodies: Vec::new() })
