@@ -1,0 +1,183 @@
+//! The command line.
+
+use crate::engine::{self, ENGINES};
+use crate::scene::{self, DEFAULT_SCENES, SCENES, Size};
+use clap::Parser;
+use std::path::PathBuf;
+use std::str::FromStr;
+
+/// Runs the same scenes through Carom and its peers, interleaved, each measurement in a process of its own.
+///
+/// Speed is reported as ratios to Carom, quality (overlap, displacement, rest, energy) beside it. Only ratios of one run
+/// mean anything; README.md says how to read them.
+#[derive(Debug, Parser)]
+#[command(version, after_help = lists())]
+pub struct Arguments {
+    /// Scenes, separated by commas, or `all` [default: pyramid,pile_boxes,pile_mixed]
+    #[arg(long = "scene", value_name = "NAMES")]
+    scenes: Option<Names>,
+
+    /// Engines, separated by commas [default: all that are compiled in]
+    #[arg(long = "engine", value_name = "NAMES")]
+    engines: Option<Names>,
+
+    /// Numbers of threads, separated by commas
+    #[arg(long, value_name = "NUMBERS", value_delimiter = ',', default_value = "1", value_parser = at_least_one)]
+    pub threads: Vec<usize>,
+
+    /// How often everything is measured
+    #[arg(long, default_value = "3", value_parser = at_least_one)]
+    pub rounds: usize,
+
+    /// Steps of 1/60 s in place of the scene's own number
+    #[arg(long, value_parser = at_least_one)]
+    pub steps: Option<usize>,
+
+    /// Dynamic bodies of piles, terrain and gas; the pit keeps its proportions
+    #[arg(long, value_parser = at_least_one)]
+    count: Option<usize>,
+
+    /// Boxes in the lowest course of pyramids
+    #[arg(long, value_parser = at_least_one)]
+    base: Option<usize>,
+
+    /// Friction of every surface that rubs, in place of 0.5
+    #[arg(long, value_name = "COEFFICIENT", value_parser = coefficient)]
+    pub friction: Option<f32>,
+
+    /// Instead of timing: run each scene for so long and tell from when on nothing is faster than 1 mm/s
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    pub settle: Option<f64>,
+
+    /// A measurement that takes longer stops where it is, and says so
+    #[arg(long, value_name = "SECONDS", default_value = "600", value_parser = limit)]
+    pub limit: f64,
+
+    /// Write everything that was measured to this file
+    #[arg(long, value_name = "FILE")]
+    pub json: Option<PathBuf>,
+
+    /// One measurement, described as the program itself does it
+    #[arg(long, hide = true, value_name = "JOB")]
+    pub worker: Option<String>,
+}
+
+/// Names separated by commas.
+#[derive(Clone, Debug)]
+struct Names(Vec<String>);
+
+impl FromStr for Names {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        Ok(Self(
+            text.split(',').map(|name| name.trim().to_string()).filter(|name| !name.is_empty()).collect(),
+        ))
+    }
+}
+
+impl Arguments {
+    /// How large scenes are to be.
+    pub fn size(&self) -> Size {
+        Size { count: self.count, base: self.base }
+    }
+
+    /// The scenes asked for.
+    pub fn scenes(&self) -> Result<Vec<&'static scene::Entry>, String> {
+        match &self.scenes {
+            None => Ok(DEFAULT_SCENES.iter().filter_map(|name| scene::find(name)).collect()),
+            Some(Names(names)) if names[..] == ["all"] => Ok(SCENES.iter().collect()),
+            Some(Names(names)) => {
+                let known = SCENES.iter().map(|entry| entry.name);
+                names
+                    .iter()
+                    .map(|name| scene::find(name).ok_or_else(|| unknown("scene", name, known.clone())))
+                    .collect()
+            }
+        }
+    }
+
+    /// The engines asked for, each once, those to compare with first.
+    pub fn engines(&self) -> Result<Vec<&'static engine::Entry>, String> {
+        let Some(Names(names)) = &self.engines else { return Ok(ENGINES.iter().collect()) };
+        let known = ENGINES.iter().map(|entry| entry.name);
+        if let Some(name) = names.iter().find(|name| engine::find(name).is_none()) {
+            return Err(unknown("engine", name, known) + "; others need a cargo feature (see README.md)");
+        }
+        Ok(ENGINES.iter().filter(|entry| names.iter().any(|name| name == entry.name)).collect())
+    }
+}
+
+fn unknown(what: &str, name: &str, known: impl Iterator<Item = &'static str>) -> String {
+    format!("no {what} `{name}`; there are {}", known.collect::<Vec<_>>().join(", "))
+}
+
+fn at_least_one(text: &str) -> Result<usize, String> {
+    text.parse()
+        .ok()
+        .filter(|number| *number >= 1)
+        .ok_or_else(|| "expected a whole number of at least 1".into())
+}
+
+fn coefficient(text: &str) -> Result<f32, String> {
+    text.parse()
+        .ok()
+        .filter(|number: &f32| (0.0..=10.0).contains(number))
+        .ok_or_else(|| "expected 0 to 10".into())
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    text.parse()
+        .ok()
+        .filter(|number: &f64| *number > 0.0 && number.is_finite())
+        .ok_or_else(|| "expected seconds".into())
+}
+
+/// A day is enough for any measurement.
+fn limit(text: &str) -> Result<f64, String> {
+    seconds(text)
+        .and_then(|limit| if limit <= 86_400.0 { Ok(limit) } else { Err("expected at most 86400".into()) })
+}
+
+/// What can be asked for.
+fn lists() -> String {
+    let mut text = String::from("Scenes:\n");
+    for entry in SCENES {
+        text += &format!("  {:<14} {}\n", entry.name, entry.about);
+    }
+    text += "\nEngines:\n";
+    for entry in ENGINES {
+        text += &format!("  {:<14} {}; {}\n", entry.name, entry.version, entry.settings);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parse(line: &str) -> Arguments {
+        Arguments::try_parse_from(line.split_whitespace()).expect("a good command line")
+    }
+
+    #[test]
+    fn names_become_entries() {
+        let arguments = parse("bench --scene pile_boxes,pyramid --engine carom --threads 1,2 --count 2000");
+        let names: Vec<_> = arguments.scenes().unwrap().iter().map(|entry| entry.name).collect();
+        assert_eq!(names, ["pile_boxes", "pyramid"]);
+        assert_eq!(arguments.engines().unwrap().len(), 1);
+        assert_eq!(arguments.threads, [1, 2]);
+        assert_eq!(arguments.size().count, Some(2000));
+        assert_eq!(parse("bench --scene all").scenes().unwrap().len(), SCENES.len());
+        assert_eq!(parse("bench").engines().unwrap().len(), ENGINES.len());
+    }
+
+    #[test]
+    fn what_is_not_there_is_named() {
+        assert!(parse("bench --scene pyramids").scenes().err().unwrap().contains("pile_boxes"));
+        assert!(parse("bench --engine bullet").engines().err().unwrap().contains("carom"));
+        for bad in ["--threads 0", "--rounds x", "--settle -1", "--settle inf", "--friction -1"] {
+            assert!(Arguments::try_parse_from(format!("bench {bad}").split_whitespace()).is_err(), "{bad}");
+        }
+    }
+}

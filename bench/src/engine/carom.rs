@@ -1,0 +1,83 @@
+//! Carom, as everybody gets it.
+
+use super::{Conditions, DT, Engine, Entry};
+use crate::quality::Pose;
+use crate::scene::{Body, DENSITY, Shape};
+use carom::math::{DVec3, Quat};
+use carom::{BodyId, Settings, World};
+
+/// Carom under its name.
+pub const ENTRY: Entry = Entry {
+    name: "carom",
+    version: "carom, this checkout",
+    settings: "Settings::default(): 4 substeps",
+    max_threads: 1,
+    start,
+};
+
+struct Carom {
+    world: World,
+    bodies: Vec<BodyId>,
+}
+
+fn start(conditions: Conditions) -> Box<dyn Engine> {
+    assert!(conditions.threads <= ENTRY.max_threads, "no more threads than the entry promises");
+    let gravity = wide(conditions.gravity);
+    let world = World::with_settings(Settings { gravity, ..Settings::default() });
+    Box::new(Carom { world, bodies: Vec::new() })
+}
+
+fn wide(vector: [f32; 3]) -> DVec3 {
+    DVec3::from_array(vector.map(f64::from))
+}
+
+fn shape(shape: &Shape) -> carom::Shape {
+    match shape {
+        Shape::Sphere { radius } => carom::Shape::sphere(f64::from(*radius)),
+        Shape::Cuboid { half } => {
+            let [x, y, z] = half.map(|half| 2.0 * f64::from(half));
+            carom::Shape::cuboid(x, y, z)
+        }
+        Shape::Capsule { half_height, radius } => {
+            carom::Shape::capsule(2.0 * f64::from(*half_height), f64::from(*radius))
+        }
+        Shape::Hull(points) => {
+            let points: Vec<DVec3> = points.iter().map(|point| wide(*point)).collect();
+            carom::Shape::hull(&points).expect("the scene's points span a hull")
+        }
+        Shape::Mesh(mesh) => {
+            let vertices = mesh.vertices.iter().map(|vertex| wide(*vertex)).collect();
+            carom::Shape::mesh(vertices, mesh.triangles.clone()).expect("the scene's triangles are sound")
+        }
+    }
+}
+
+impl Engine for Carom {
+    fn add(&mut self, body: &Body) {
+        let [x, y, z] = body.position.map(f64::from);
+        let [vx, vy, vz] = body.velocity;
+        let mut collider = carom::Collider::new(shape(&body.shape));
+        collider.density = f64::from(DENSITY);
+        let written = if body.fixed { carom::Body::fixed() } else { carom::Body::dynamic() }
+            .at(x, y, z)
+            .rotated(Quat::from_array(body.rotation))
+            .moving(vx, vy, vz)
+            .collider(collider)
+            .friction(f64::from(body.friction))
+            .restitution(f64::from(body.restitution));
+        self.bodies.push(self.world.add(written));
+    }
+
+    fn step(&mut self) {
+        self.world.step(DT);
+    }
+
+    fn pose(&self, body: usize) -> Pose {
+        let state = &self.world[self.bodies[body]];
+        Pose { position: state.position(), rotation: state.rotation().as_dquat().normalize() }
+    }
+
+    fn velocity(&self, body: usize) -> DVec3 {
+        self.world[self.bodies[body]].linear_velocity().as_dvec3()
+    }
+}
