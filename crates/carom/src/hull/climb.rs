@@ -27,13 +27,13 @@ pub(super) struct Climb {
 
 /// A list of numbers for each number.
 #[derive(Clone, Debug)]
-struct Lists {
+pub(super) struct Lists {
     ends: Vec<u32>,
     members: Vec<u32>,
 }
 
 impl Lists {
-    fn new(count: usize, mut pairs: Vec<(u32, u32)>) -> Self {
+    pub fn new(count: usize, mut pairs: Vec<(u32, u32)>) -> Self {
         pairs.sort_unstable();
         pairs.dedup();
         let ends =
@@ -41,7 +41,7 @@ impl Lists {
         Self { ends, members: pairs.into_iter().map(|pair| pair.1).collect() }
     }
 
-    fn of(&self, list: u32) -> &[u32] {
+    pub fn of(&self, list: u32) -> &[u32] {
         let list = list as usize;
         let start = if list == 0 { 0 } else { self.ends[list - 1] };
         &self.members[start as usize..self.ends[list] as usize]
