@@ -1,6 +1,6 @@
 //! How long the narrow phase takes for pairs with a convex hull: nanoseconds per call, apart, touching and overlapping.
 //!
-//! `cargo run --release -p carom --example narrow_phase`
+//! `cargo run --release -p carom --example narrow_phase [part of a pair's name]`
 
 use carom::Shape;
 use carom::collide::{manifolds, separation};
@@ -80,7 +80,8 @@ fn main() {
     print!("{:<34}", "ns per call, gap (m):");
     gaps.iter().for_each(|gap| print!("{gap:>9}"));
     println!();
-    for (name, a, b, spin) in &pairs {
+    let wanted = std::env::args().nth(1).unwrap_or_default();
+    for (name, a, b, spin) in pairs.iter().filter(|pair| pair.0.contains(&wanted)) {
         let all: Vec<_> = gaps.iter().map(|&gap| poses(a, b, gap, *spin)).collect();
         print!("{:<34}", format!("{name}: gap"));
         for poses in &all {

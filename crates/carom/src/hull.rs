@@ -3,7 +3,7 @@
 use crate::error::{Invalid, limits};
 use crate::math::DVec3;
 use crate::mesh::check_points;
-use climb::Climb;
+use climb::{Climb, Scan};
 use quickhull::quickhull;
 pub(crate) use topology::Topology;
 
@@ -24,6 +24,7 @@ pub struct Hull {
     topology: Topology,
     /// The flat side that each triangle belongs to; none for a triangle without area.
     face_of: Vec<Option<u32>>,
+    scan: Scan,
     /// The way up; without it corners and faces are searched one by one.
     climb: Option<Climb>,
     /// Whether the climb leads to every flat side. Among slivers it may not.
@@ -102,7 +103,9 @@ impl Hull {
         let outlines = (0..self.planes.len() as u32).map(|side| self.topology.ring(side));
         let sides = self.triangles.iter().zip(&self.face_of);
         let sides = sides.filter_map(|(&triangle, &face)| Some((triangle, face?)));
-        self.climb = Climb::new(vertices, &self.triangles, outlines, sides, self.face_normals());
+        self.scan = Scan::new(vertices);
+        self.climb =
+            Climb::new((vertices, &self.scan), &self.triangles, outlines, sides, self.face_normals());
         self.finds_faces = self.planes.iter().all(|plane| {
             let found = self.face_towards(plane.normal).0 as usize;
             self.planes[found].normal.distance(plane.normal) <= 1e-9
@@ -136,6 +139,7 @@ impl Hull {
             planes: sides.planes,
             topology,
             face_of: sides.face_of,
+            scan: Scan::new(&[]),
             climb: None,
             finds_faces: true,
             bounds: (DVec3::ZERO, DVec3::ZERO),
@@ -162,7 +166,7 @@ impl Hull {
     pub(crate) fn highest(&self, direction: DVec3) -> u32 {
         match &self.climb {
             Some(climb) => climb.highest(&self.vertices, direction),
-            None => climb::highest(&self.vertices, direction),
+            None => self.scan.highest(direction),
         }
     }
 
@@ -478,7 +482,7 @@ mod tests {
             let axes = DVec3::AXES.into_iter().flat_map(|axis| [axis, -axis]);
             for direction in random.chain(normals).chain(edges).chain(axes).take(4000) {
                 let height = |index: u32| hull.vertices()[index as usize].dot(direction);
-                let (found, top) = (hull.highest(direction), climb::highest(hull.vertices(), direction));
+                let (found, top) = (hull.highest(direction), hull.scan.highest(direction));
                 assert!(
                     found == top || height(top) - height(found) <= 1e-12 * extent * direction.length(),
                     "{} of {} along {direction}",

@@ -15,16 +15,14 @@ use crate::math::DVec3;
 
 /// A corner of the difference, and the corners of `a` and `b` that it comes from.
 #[derive(Clone, Copy, Debug)]
-struct Corner {
+pub(crate) struct Corner {
     difference: DVec3,
-    on_a: DVec3,
-    on_b: DVec3,
     numbers: (u32, u32),
 }
 
 /// One to three corners, and the weights that make of them the point closest to the origin.
 #[derive(Clone, Copy, Debug)]
-struct Simplex {
+pub(crate) struct Simplex {
     corners: [Corner; 3],
     weights: [f64; 3],
     count: usize,
@@ -37,18 +35,18 @@ pub(crate) struct Closest {
     pub(crate) normal: DVec3,
     /// The gap along it, m, and never more than the shapes' distance: just that, but for rounding, where they are apart.
     pub(crate) gap: f64,
-    /// Whether they are apart by more than rounding. Where they meet, the normal is a guess and there are no closest
-    /// points.
+    /// Whether they are apart by more than rounding. Where they meet, the normal and the points are a guess.
     pub(crate) is_apart: bool,
-    simplex: Simplex,
+    pub(crate) simplex: Simplex,
 }
 
 impl Closest {
-    /// The closest points, `a`'s first.
-    pub(crate) fn points(&self) -> (DVec3, DVec3) {
+    /// The closest points of these same shapes, `a`'s first.
+    pub(crate) fn points(&self, a: &impl Farthest, b: &impl Farthest) -> (DVec3, DVec3) {
         let Simplex { corners, weights, count } = self.simplex;
         (0..count).fold((DVec3::ZERO, DVec3::ZERO), |(on_a, on_b), k| {
-            (on_a + corners[k].on_a * weights[k], on_b + corners[k].on_b * weights[k])
+            let (number_a, number_b) = corners[k].numbers;
+            (on_a + a.point(number_a) * weights[k], on_b + b.point(number_b) * weights[k])
         })
     }
 
@@ -70,7 +68,7 @@ pub(crate) fn closest(
     const ROUNDS: usize = 64;
     let support = |direction: DVec3| {
         let ((number_a, on_a), (number_b, on_b)) = (a.farthest(direction), b.farthest(-direction));
-        Corner { difference: on_b - on_a, on_a, on_b, numbers: (number_a, number_b) }
+        Corner { difference: on_b - on_a, numbers: (number_a, number_b) }
     };
     let first = support(towards);
     let mut simplex = Simplex { corners: [first; 3], weights: [1.0, 0.0, 0.0], count: 1 };

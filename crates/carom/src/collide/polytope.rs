@@ -136,6 +136,9 @@ impl<'a> Polytope<'a> {
 pub(crate) trait Farthest {
     /// The number and place of the point that lies farthest in `direction`.
     fn farthest(&self, direction: DVec3) -> (u32, DVec3);
+
+    /// The place of the point of that number.
+    fn point(&self, number: u32) -> DVec3;
 }
 
 impl Farthest for Polytope<'_> {
@@ -143,11 +146,20 @@ impl Farthest for Polytope<'_> {
         let number = self.highest(direction);
         (number, self.corner(number))
     }
+
+    fn point(&self, number: u32) -> DVec3 {
+        self.corner(number)
+    }
 }
 
 impl Farthest for Segment {
     fn farthest(&self, direction: DVec3) -> (u32, DVec3) {
-        if self.half.dot(direction) > 0.0 { (1, self.at(1.0)) } else { (0, self.at(-1.0)) }
+        let number = u32::from(self.half.dot(direction) > 0.0);
+        (number, self.point(number))
+    }
+
+    fn point(&self, number: u32) -> DVec3 {
+        if number == 1 { self.at(1.0) } else { self.at(-1.0) }
     }
 }
 
@@ -176,5 +188,9 @@ impl<T: Farthest> Farthest for Moved<'_, T> {
     fn farthest(&self, direction: DVec3) -> (u32, DVec3) {
         let (number, point) = self.shape.farthest(self.back * direction);
         (number, self.place(point))
+    }
+
+    fn point(&self, number: u32) -> DVec3 {
+        self.place(self.shape.point(number))
     }
 }

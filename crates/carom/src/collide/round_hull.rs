@@ -89,7 +89,7 @@ fn nearest(core: &Segment, hull: &Polytope, limit: f64) -> Option<Nearest> {
     }
     let (numbers, _, count) = closest.corners();
     let feature = hull.feature_of(&numbers[..count], closest.normal);
-    let (on_core, outward, distance) = (closest.points().1, closest.normal, closest.gap);
+    let (on_core, outward, distance) = (closest.points(hull, core).1, closest.normal, closest.gap);
     Some(Nearest { on_core, outward, distance, feature })
 }
 
