@@ -3,7 +3,7 @@
 //! `cargo run --release -p carom --example narrow_phase [part of a pair's name]`
 
 use carom::Shape;
-use carom::collide::{manifolds, separation};
+use carom::collide::{manifolds, separation, separation_along};
 use carom::math::{DVec3, Pose, rotation_from_vector};
 use std::time::Instant;
 
@@ -86,6 +86,14 @@ fn main() {
         print!("{:<34}", format!("{name}: gap"));
         for poses in &all {
             let time = nanoseconds(|| poses.iter().map(|(p, q)| separation(a, p, b, q)).sum());
+            print!("{time:>9.0}");
+        }
+        print!("\n{:<34}", "    along a known normal");
+        for poses in &all {
+            let normals: Vec<DVec3> =
+                poses.iter().map(|(p, q)| (q.position - p.position).normalize_or(DVec3::Y)).collect();
+            let along = |((p, q), &normal)| separation_along((a, p), (b, q), normal).max(-1e9);
+            let time = nanoseconds(|| poses.iter().map(|(p, q)| (p, q)).zip(&normals).map(along).sum());
             print!("{time:>9.0}");
         }
         print!("\n{:<34}", "    contacts");

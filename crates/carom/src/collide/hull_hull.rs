@@ -180,8 +180,11 @@ impl<'a> Pair<'a> {
                 }
             }
         }
-        for side in 0..a.planes.len() as u32 {
-            self.follow_edges(side, &probes, &mut best, floor);
+        for (plane, side) in a.planes.iter().zip(0..) {
+            // An arc that is not ruled out has a side that the point is so high above.
+            if plane.height(probes.closest) > bound(&best).min(0.0) {
+                self.follow_edges(side, &probes, &mut best, floor);
+            }
         }
         best
     }
@@ -190,14 +193,18 @@ impl<'a> Pair<'a> {
     fn follow_edges(&self, side: u32, probes: &Probes, best: &mut Option<Axis>, floor: f64) {
         let (a, b) = (self.a.shape, self.b.shape);
         let plane = &a.planes[side as usize];
+        let height = plane.height(probes.closest);
         let mut start = None;
         for &number in a.topology.ring_edges(side) {
             let edge = a.topology.edge(number);
-            if edge.sides[0] != side {
+            let other_side = edge.sides[0] ^ edge.sides[1] ^ side;
+            let other = &a.planes[other_side as usize];
+            let beyond = other.height(probes.closest);
+            // Each edge once: from the side that the point is higher above.
+            if beyond > height || (beyond == height && other_side < side) {
                 continue;
             }
             let bound = best.map_or(floor, |axis| axis.gap + ROUNDING * self.size);
-            let other = &a.planes[edge.sides[1] as usize];
             // The features that the axis comes from meet when it has been gone along.
             let reach = bound.abs() + 1e-9 * self.size;
             if probes.allow_arc(plane, other, bound) && self.is_near(edge.ends, reach) {
