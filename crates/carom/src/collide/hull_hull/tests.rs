@@ -151,7 +151,7 @@ fn contacts_tell_the_gap_along_their_normal() {
                     }
                 }
                 let back = one((b, &pose_b), (a, &pose_a), 0.02);
-                let turned = back.as_ref().map(|back| back.clone().flipped());
+                let turned = back.map(Manifold::flipped);
                 let turned = turned.expect("the same in turn");
                 assert!((least(&turned) - gap).abs() < 1e-11, "{}", told(&back));
             }
