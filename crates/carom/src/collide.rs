@@ -3,33 +3,42 @@
 //! Both questions take the shapes' poses in one common frame near both of them (the caller moves the origin there, so
 //! that nothing is lost far from the world's origin). The normal always points from `a` to `b`.
 //!
-//! Balls, capsules, cuboids and planes have kernels of their own, one file for each family of pairs:
+//! Balls, capsules, cuboids, hulls and planes have kernels of their own, one file for each family of pairs:
 //!
-//! | | round | cuboid | plane |
-//! |---|---|---|---|
-//! | **round** (ball, capsule) | `round.rs` | `round_box.rs` | `plane.rs` |
-//! | **cuboid** | | `box_box.rs`, `clip.rs` | `plane.rs` |
-//! | **plane** | | | never touch |
+//! | | round | cuboid | hull | plane |
+//! |---|---|---|---|---|
+//! | **round** (ball, capsule) | `round.rs` | `round_box.rs` | `round_hull.rs` | `plane.rs` |
+//! | **cuboid** | | `box_box.rs`, `clip.rs` | `hull_hull.rs` | `plane.rs` |
+//! | **hull** | | | `hull_hull.rs` | `plane.rs` |
+//! | **plane** | | | | never touch |
 //!
 //! A round shape is a *core* (a point or a segment) and a radius, so its pairs reduce to the closest points of cores
-//! (`segment.rs`). All other pairs go through `parry.rs`.
+//! (`segment.rs`). Beside a hull a cuboid is a polyhedron like any other (`polytope.rs`): closest points come from
+//! `closest.rs`, overlapping sides from `polygon.rs`. All other pairs go through `parry.rs`, and so do hulls whose sides
+//! and edges, among slivers, do not close.
 
 mod box_box;
 mod clip;
+mod closest;
 mod cuboid;
+mod hull_hull;
 mod manifold;
 mod parry;
 mod plane;
+mod polygon;
+mod polytope;
 mod round;
 mod round_box;
+mod round_hull;
 mod segment;
 
 pub use manifold::{ContactPoint, Manifold};
 
-use crate::math::Pose;
+use crate::math::{DVec3, Pose};
 use crate::shape::Shape;
 use cuboid::Cuboid;
 use plane::HalfSpace;
+use polytope::{CuboidParts, Polytope};
 use round::Round;
 
 /// Lengths below this fraction of the shapes' own size are rounding: no direction is read from them.
@@ -40,7 +49,7 @@ const FLAT: f64 = 0.995;
 
 /// How far apart the shapes are, m: never more than their true distance, zero when they touch, negative when they overlap.
 ///
-/// Positive exactly if the shapes are disjoint. Where one of them is a ball, a capsule or a plane it is the true
+/// Positive exactly if the shapes are disjoint. Where one of them is a ball, a capsule, a hull or a plane it is the true
 /// distance; for two cuboids the widest gap along fifteen axes, which falls short of the distance only where the
 /// closest features are two corners or a corner and an edge. Overlap is the length of the shortest way out of it
 /// (for two round shapes: along the line of their cores' closest points). Two planes are infinitely far apart.
@@ -48,7 +57,7 @@ const FLAT: f64 = 0.995;
 /// Continuous in the poses, but for one case: two cuboids apart, corner to corner or corner to edge, whose edges turn
 /// through parallel. There it may jump between two positive lower bounds; its sign never does.
 pub fn separation(a: &Shape, pose_a: &Pose, b: &Shape, pose_b: &Pose) -> f64 {
-    use Placed::{Box, Plane, Round};
+    use Placed::{Box, Hull, Plane, Round};
     let (Some(placed_a), Some(placed_b)) = (Placed::new(a, pose_a), Placed::new(b, pose_b)) else {
         return parry::separation(a, pose_a, b, pose_b);
     };
@@ -58,20 +67,47 @@ pub fn separation(a: &Shape, pose_a: &Pose, b: &Shape, pose_b: &Pose) -> f64 {
         (Round(round), Plane(plane)) | (Plane(plane), Round(round)) => plane::round_separation(round, plane),
         (Box(a), Box(b)) => box_box::separation(a, b),
         (Box(cuboid), Plane(plane)) | (Plane(plane), Box(cuboid)) => plane::box_separation(cuboid, plane),
+        (Round(round), Hull(hull)) | (Hull(hull), Round(round)) => round_hull::separation(round, hull),
+        (Box(cuboid), Hull(hull)) => hull_hull::separation(&CuboidParts::new(cuboid).polytope(), hull),
+        (Hull(hull), Box(cuboid)) => hull_hull::separation(hull, &CuboidParts::new(cuboid).polytope()),
+        (Hull(a), Hull(b)) => hull_hull::separation(a, b),
+        (Hull(hull), Plane(plane)) | (Plane(plane), Hull(hull)) => plane::hull_separation(hull, plane),
         (Plane(_), Plane(_)) => f64::INFINITY,
+    }
+}
+
+/// The gap along `normal` (unit length, from `a` to `b`), m: never more than the shapes' distance, whatever the normal.
+///
+/// Where it is wide enough nothing else need be asked: a direction that has kept two shapes apart goes on doing so for a
+/// while. Known for hulls and cuboids; −∞, which says nothing, for all other pairs.
+pub fn separation_along(a: (&Shape, &Pose), b: (&Shape, &Pose), normal: DVec3) -> f64 {
+    use Placed::{Box, Hull};
+    match (Placed::new(a.0, a.1), Placed::new(b.0, b.1)) {
+        (Some(Hull(a)), Some(Hull(b))) => hull_hull::separation_along(&a, &b, normal),
+        (Some(Hull(a)), Some(Box(b))) => {
+            hull_hull::separation_along(&a, &CuboidParts::new(&b).polytope(), normal)
+        }
+        (Some(Box(a)), Some(Hull(b))) => {
+            hull_hull::separation_along(&CuboidParts::new(&a).polytope(), &b, normal)
+        }
+        (Some(Box(a)), Some(Box(b))) => {
+            let (parts_a, parts_b) = (CuboidParts::new(&a), CuboidParts::new(&b));
+            hull_hull::separation_along(&parts_a.polytope(), &parts_b.polytope(), normal)
+        }
+        _ => f64::NEG_INFINITY,
     }
 }
 
 /// Appends the manifolds of all places where the surfaces are no further apart than `margin` (m).
 ///
-/// A pair of balls, capsules, cuboids and planes adds one manifold at most. The point of least separation is always
+/// A pair of balls, capsules, cuboids, hulls and planes adds one manifold at most. The point of least separation is always
 /// among its points, and that separation is [`separation`]'s; only for two cuboids apart and closest at two corners
 /// or a corner and an edge may it be more, as that function is a lower bound there.
 ///
 /// Where the geometry leaves the normal open (concentric balls, a ball's centre on a capsule's axis, capsules with
 /// overlapping axes) one fixed direction is taken, the same for the same poses.
 pub fn manifolds(a: (&Shape, &Pose), b: (&Shape, &Pose), margin: f64, out: &mut Vec<Manifold>) {
-    use Placed::{Box, Plane, Round};
+    use Placed::{Box, Hull, Plane, Round};
     let (Some(placed_a), Some(placed_b)) = (Placed::new(a.0, a.1), Placed::new(b.0, b.1)) else {
         return parry::manifolds(a, b, margin, out);
     };
@@ -84,24 +120,33 @@ pub fn manifolds(a: (&Shape, &Pose), b: (&Shape, &Pose), margin: f64, out: &mut 
         (Box(a), Box(b)) => box_box::manifold(a, b, margin),
         (Box(cuboid), Plane(plane)) => plane::box_manifold(cuboid, plane, margin),
         (Plane(plane), Box(cuboid)) => plane::box_manifold(cuboid, plane, margin).map(|m| m.flipped()),
+        (Round(round), Hull(hull)) => round_hull::manifold(round, hull, margin),
+        (Hull(hull), Round(round)) => round_hull::manifold(round, hull, margin).map(|m| m.flipped()),
+        (Box(cuboid), Hull(hull)) => hull_hull::manifold(&CuboidParts::new(cuboid).polytope(), hull, margin),
+        (Hull(hull), Box(cuboid)) => hull_hull::manifold(hull, &CuboidParts::new(cuboid).polytope(), margin),
+        (Hull(a), Hull(b)) => hull_hull::manifold(a, b, margin),
+        (Hull(hull), Plane(plane)) => plane::hull_manifold(hull, plane, margin),
+        (Plane(plane), Hull(hull)) => plane::hull_manifold(hull, plane, margin).map(|m| m.flipped()),
         (Plane(_), Plane(_)) => None,
     });
 }
 
 /// A shape that has kernels of its own, put in its place.
-enum Placed {
+enum Placed<'a> {
     Round(Round),
     Box(Cuboid),
+    Hull(Polytope<'a>),
     Plane(HalfSpace),
 }
 
-impl Placed {
+impl<'a> Placed<'a> {
     /// `None` for the shapes that go through parry.
-    fn new(shape: &Shape, pose: &Pose) -> Option<Self> {
-        match *shape {
-            Shape::Sphere { radius } => Some(Placed::Round(Round::ball(pose, radius))),
-            Shape::Capsule { height, radius } => Some(Placed::Round(Round::capsule(pose, height, radius))),
-            Shape::Cuboid { size } => Some(Placed::Box(Cuboid { half: 0.5 * size, pose: *pose })),
+    fn new(shape: &'a Shape, pose: &Pose) -> Option<Self> {
+        match shape {
+            Shape::Sphere { radius } => Some(Placed::Round(Round::ball(pose, *radius))),
+            Shape::Capsule { height, radius } => Some(Placed::Round(Round::capsule(pose, *height, *radius))),
+            Shape::Cuboid { size } => Some(Placed::Box(Cuboid { half: 0.5 * *size, pose: *pose })),
+            Shape::Hull(hull) => Polytope::of_hull(hull, pose).map(Placed::Hull),
             Shape::Plane => Some(Placed::Plane(HalfSpace::new(pose))),
             _ => None,
         }

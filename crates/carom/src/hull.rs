@@ -3,12 +3,13 @@
 use crate::error::{Invalid, limits};
 use crate::math::DVec3;
 use crate::mesh::check_points;
-use climb::Climb;
+use climb::{Climb, Scan};
 use quickhull::quickhull;
-use std::ops::Range;
+pub(crate) use topology::Topology;
 
 mod climb;
 mod quickhull;
+mod topology;
 
 /// Points this close to a plane, as a fraction of the hull's extent, lie in it.
 const FLATNESS: f64 = 1e-10;
@@ -18,11 +19,12 @@ const FLATNESS: f64 = 1e-10;
 pub struct Hull {
     vertices: Vec<DVec3>,
     triangles: Vec<[u32; 3]>,
-    faces: Vec<Face>,
-    /// The corners of all faces, one face after the other.
-    outlines: Vec<u32>,
+    /// The planes of its flat sides: triangles in one plane taken together.
+    planes: Vec<Plane>,
+    topology: Topology,
     /// The flat side that each triangle belongs to; none for a triangle without area.
     face_of: Vec<Option<u32>>,
+    scan: Scan,
     /// The way up; without it corners and faces are searched one by one.
     climb: Option<Climb>,
     /// Whether the climb leads to every flat side. Among slivers it may not.
@@ -31,15 +33,24 @@ pub struct Hull {
     bounds: (DVec3, DVec3),
     /// The mean of the corners, m.
     middle: DVec3,
+    /// Radius (m) of a ball around `middle` inside all planes.
+    inner_radius: f64,
 }
 
-/// A flat side: triangles in one plane taken together.
-#[derive(Clone, Debug)]
-struct Face {
+/// The plane of a flat side: the polyhedron lies where `normal · point ≤ offset`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Plane {
     /// Outward, unit length.
-    normal: DVec3,
-    /// Where its corners stand in `outlines`, anticlockwise from outside.
-    corners: Range<usize>,
+    pub normal: DVec3,
+    /// That of the outermost corner, m.
+    pub offset: f64,
+}
+
+impl Plane {
+    /// How far `point` is outside, m.
+    pub fn height(&self, point: DVec3) -> f64 {
+        point.dot(self.normal) - self.offset
+    }
 }
 
 impl Hull {
@@ -69,10 +80,12 @@ impl Hull {
         let tolerance = FLATNESS * extent;
         let hull = Self::spanned(&distinct, tolerance).ok_or_else(flat)?;
         // Points within a face or an edge may have come along. Without them the hull is the same.
-        let true_corners: Vec<DVec3> = (0..hull.vertices.len() as u32)
-            .filter(|&vertex| hull.outlines.iter().filter(|&&corner| corner == vertex).count() > 2)
-            .map(|vertex| hull.vertices[vertex as usize])
-            .collect();
+        let mut sides_at = vec![0; hull.vertices.len()];
+        for side in 0..hull.planes.len() as u32 {
+            hull.topology.ring(side).iter().for_each(|&corner| sides_at[corner as usize] += 1);
+        }
+        let corners = hull.vertices.iter().zip(&sides_at).filter(|&(_, &sides)| sides > 2);
+        let true_corners: Vec<DVec3> = corners.map(|(&vertex, _)| vertex).collect();
         let lean = (true_corners.len() < hull.vertices.len())
             .then(|| Self::spanned(&true_corners, tolerance))
             .flatten()
@@ -87,14 +100,22 @@ impl Hull {
         let high = vertices.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
         self.bounds = (low, high);
         self.middle = vertices.iter().sum::<DVec3>() / vertices.len().max(1) as f64;
-        let outlines = self.faces.iter().map(|face| &self.outlines[face.corners.clone()]);
+        let outlines = (0..self.planes.len() as u32).map(|side| self.topology.ring(side));
         let sides = self.triangles.iter().zip(&self.face_of);
         let sides = sides.filter_map(|(&triangle, &face)| Some((triangle, face?)));
-        self.climb = Climb::new(vertices, &self.triangles, outlines, sides, self.face_normals());
-        self.finds_faces = self.faces.iter().all(|face| {
-            let found = self.face_towards(face.normal).0 as usize;
-            self.faces[found].normal.distance(face.normal) <= 1e-9
+        self.scan = Scan::new(vertices);
+        self.climb =
+            Climb::new((vertices, &self.scan), &self.triangles, outlines, sides, self.face_normals());
+        self.finds_faces = self.planes.iter().all(|plane| {
+            let found = self.face_towards(plane.normal).0 as usize;
+            self.planes[found].normal.distance(plane.normal) <= 1e-9
         });
+        for side in 0..self.planes.len() {
+            let normal = self.planes[side].normal;
+            self.planes[side].offset = self.support(normal).dot(normal);
+        }
+        let depths = self.planes.iter().map(|plane| -plane.height(self.middle));
+        self.inner_radius = depths.fold(f64::INFINITY, f64::min).max(0.0);
         self
     }
 
@@ -104,28 +125,31 @@ impl Hull {
         used.sort_unstable();
         used.dedup();
         let renumbered = |index: usize| used.partition_point(|&other| other < index) as u32;
-        let triangles = found.iter().map(|triangle| triangle.map(renumbered)).collect();
-        let vertices = used.iter().map(|&index| points[index]).collect();
-        let mut hull = Self {
+        let triangles: Vec<[u32; 3]> = found.iter().map(|triangle| triangle.map(renumbered)).collect();
+        let vertices: Vec<DVec3> = used.iter().map(|&index| points[index]).collect();
+        let sides = Sides::of(&vertices, &triangles, 10.0 * tolerance);
+        let count = vertices.len() as u32;
+        let topology =
+            Topology::new(vertices.len(), sides.outlines.iter().map(Vec::as_slice), |one, other| {
+                edge_number(count, one, other)
+            });
+        Some(Self {
             vertices,
             triangles,
-            faces: Vec::new(),
-            outlines: Vec::new(),
-            face_of: Vec::new(),
+            planes: sides.planes,
+            topology,
+            face_of: sides.face_of,
+            scan: Scan::new(&[]),
             climb: None,
             finds_faces: true,
             bounds: (DVec3::ZERO, DVec3::ZERO),
             middle: DVec3::ZERO,
-        };
-        hull.find_faces(10.0 * tolerance);
-        Some(hull)
+            inner_radius: 0.0,
+        })
     }
 
     fn holds(&self, points: &[DVec3], tolerance: f64) -> bool {
-        self.faces.iter().all(|face| {
-            let corner = self.vertices[self.outlines[face.corners.start] as usize];
-            points.iter().all(|&point| (point - corner).dot(face.normal) <= tolerance)
-        })
+        self.planes.iter().all(|plane| points.iter().all(|&point| plane.height(point) <= tolerance))
     }
 
     /// Its corners, m.
@@ -142,7 +166,7 @@ impl Hull {
     pub(crate) fn highest(&self, direction: DVec3) -> u32 {
         match &self.climb {
             Some(climb) => climb.highest(&self.vertices, direction),
-            None => climb::highest(&self.vertices, direction),
+            None => self.scan.highest(direction),
         }
     }
 
@@ -165,98 +189,136 @@ impl Hull {
     /// anticlockwise from outside.
     pub(crate) fn face_towards(&self, direction: DVec3) -> (u32, &[u32]) {
         let closest = |best: (u32, f64), face: u32| {
-            let along = self.faces[face as usize].normal.dot(direction);
+            let along = self.planes[face as usize].normal.dot(direction);
             if along > best.1 { (face, along) } else { best }
         };
         let none = (0, f64::NEG_INFINITY);
         let Some(climb) = self.climb.as_ref().filter(|_| self.finds_faces) else {
-            let best = (0..self.faces.len() as u32).fold(none, closest);
-            return (best.0, self.corners_of(best.0));
+            let best = (0..self.planes.len() as u32).fold(none, closest);
+            return (best.0, self.topology.ring(best.0));
         };
         let top = climb.highest(&self.vertices, direction);
         let mut best = climb.faces_at(top).iter().copied().fold(none, closest);
         // Where rounding decides which corner is the farthest, the closest side may be the next one over.
         loop {
             let here = best.0;
-            for &corner in self.corners_of(here) {
+            for &corner in self.topology.ring(here) {
                 best = climb.faces_at(corner).iter().copied().fold(best, closest);
             }
             if best.0 == here {
                 break;
             }
         }
-        (best.0, self.corners_of(best.0))
-    }
-
-    fn corners_of(&self, face: u32) -> &[u32] {
-        let corners = self.faces.get(face as usize).map_or(0..0, |face| face.corners.clone());
-        &self.outlines[corners]
+        (best.0, self.topology.ring(best.0))
     }
 
     /// A number of its own for the side between two corners, the same from both ends.
     pub(crate) fn edge_number(&self, one: u32, other: u32) -> u32 {
-        let count = self.vertices.len() as u32;
-        one.min(other).wrapping_mul(count).wrapping_add(one.max(other))
+        edge_number(self.vertices.len() as u32, one, other)
+    }
+
+    /// The planes of its flat sides.
+    pub(crate) fn planes(&self) -> &[Plane] {
+        &self.planes
+    }
+
+    /// What borders on what.
+    pub(crate) fn topology(&self) -> &Topology {
+        &self.topology
+    }
+
+    /// The radius (m) of a ball around [`Self::middle`] that the hull holds.
+    pub(crate) fn inner_radius(&self) -> f64 {
+        self.inner_radius
     }
 
     /// The outward normals of its flat sides, unit length.
     pub(crate) fn face_normals(&self) -> impl Iterator<Item = DVec3> {
-        self.faces.iter().map(|face| face.normal)
+        self.planes.iter().map(|plane| plane.normal)
     }
+}
 
-    /// Joins triangles whose corners lie within `tolerance` (m) of a common plane. The largest triangles set the planes,
-    /// so that slivers, whose normals are rounding, join a neighbour instead of making a side of their own.
-    fn find_faces(&mut self, tolerance: f64) {
-        let corners = |triangle: [u32; 3]| triangle.map(|index| self.vertices[index as usize]);
+fn edge_number(corners: u32, one: u32, other: u32) -> u32 {
+    one.min(other).wrapping_mul(corners).wrapping_add(one.max(other))
+}
+
+/// The flat sides that triangles make together.
+struct Sides {
+    planes: Vec<Plane>,
+    /// Their corners, anticlockwise from outside.
+    outlines: Vec<Vec<u32>>,
+    /// The side that each triangle belongs to.
+    face_of: Vec<Option<u32>>,
+}
+
+impl Sides {
+    /// Joins triangles that hang together and whose corners lie within `tolerance` (m) of a common plane. The largest
+    /// triangles set the planes, so that slivers, whose normals are rounding, join a neighbour instead of making a side of
+    /// their own.
+    fn of(vertices: &[DVec3], triangles: &[[u32; 3]], tolerance: f64) -> Self {
+        let corners = |triangle: [u32; 3]| triangle.map(|index| vertices[index as usize]);
         let cross = |triangle: [u32; 3]| {
             let [a, b, c] = corners(triangle);
             (b - a).cross(c - a)
         };
-        let mut order: Vec<usize> = (0..self.triangles.len()).collect();
-        let areas: Vec<f64> = self.triangles.iter().map(|&triangle| cross(triangle).length()).collect();
+        let mut order: Vec<usize> = (0..triangles.len()).collect();
+        let areas: Vec<f64> = triangles.iter().map(|&triangle| cross(triangle).length()).collect();
         order.sort_unstable_by(|&one, &other| areas[other].total_cmp(&areas[one]).then(one.cmp(&other)));
+        let steps = |triangle: usize| {
+            let [a, b, c] = triangles[triangle];
+            [(a, b), (b, c), (c, a)]
+        };
+        let mut left_of: Vec<((u32, u32), usize)> =
+            (0..triangles.len()).flat_map(|triangle| steps(triangle).map(|step| (step, triangle))).collect();
+        left_of.sort_unstable();
 
-        let mut face_of: Vec<Option<u32>> = vec![None; self.triangles.len()];
-        let (mut faces, mut outlines) = (Vec::new(), Vec::new());
+        let mut sides =
+            Self { planes: Vec::new(), outlines: Vec::new(), face_of: vec![None; triangles.len()] };
         for &seed in &order {
-            if face_of[seed].is_some() {
+            let normal = cross(triangles[seed]).normalize_or_zero();
+            if sides.face_of[seed].is_some() || normal == DVec3::ZERO {
                 continue;
             }
-            let normal = cross(self.triangles[seed]).normalize_or_zero();
-            if normal == DVec3::ZERO {
-                continue;
-            }
-            let [origin, ..] = corners(self.triangles[seed]);
-            let mut sides: Vec<(u32, u32)> = Vec::new();
-            for (index, &triangle) in self.triangles.iter().enumerate() {
-                if face_of[index].is_some() {
-                    continue;
+            let [origin, ..] = corners(triangles[seed]);
+            let face = Some(sides.planes.len() as u32);
+            sides.face_of[seed] = face;
+            let mut members = vec![seed];
+            let mut next = 0;
+            while next < members.len() {
+                for (from, to) in steps(members[next]) {
+                    let Ok(found) = left_of.binary_search_by(|other| other.0.cmp(&(to, from))) else {
+                        continue;
+                    };
+                    let beyond = left_of[found].1;
+                    let triangle = triangles[beyond];
+                    let in_plane = corners(triangle)
+                        .iter()
+                        .all(|&point| (point - origin).dot(normal).abs() <= tolerance);
+                    // Both sides of a plate thinner than the tolerance lie in the plane; only one looks this way.
+                    if sides.face_of[beyond].is_none() && in_plane && cross(triangle).dot(normal) >= 0.0 {
+                        sides.face_of[beyond] = face;
+                        members.push(beyond);
+                    }
                 }
-                let in_plane =
-                    corners(triangle).iter().all(|&point| (point - origin).dot(normal).abs() <= tolerance);
-                // Both sides of a plate thinner than the tolerance lie in the plane; only one looks this way.
-                if in_plane && cross(triangle).dot(normal) >= 0.0 {
-                    face_of[index] = Some(faces.len() as u32);
-                    sides.extend((0..3).map(|side| (triangle[side], triangle[(side + 1) % 3])));
-                }
+                next += 1;
             }
-            let start = outlines.len();
-            match outline_of(&sides) {
-                Some(outline) => outlines.extend(outline),
-                None => outlines.extend(self.triangles[seed]),
-            }
-            faces.push(Face { normal, corners: start..outlines.len() });
+            let border: Vec<(u32, u32)> = members.into_iter().flat_map(steps).collect();
+            sides.outlines.push(outline_of(&border).unwrap_or_else(|| triangles[seed].to_vec()));
+            sides.planes.push(Plane { normal, offset: origin.dot(normal) });
         }
-        self.faces = faces;
-        self.outlines = outlines;
-        self.face_of = face_of;
+        sides
     }
 }
 
 /// The closed line that is left of `sides` when those passed both ways are gone; `None` if it is not one line.
 fn outline_of(sides: &[(u32, u32)]) -> Option<Vec<u32>> {
-    let border: Vec<(u32, u32)> =
-        sides.iter().copied().filter(|&(from, to)| !sides.contains(&(to, from))).collect();
+    let mut sorted = sides.to_vec();
+    sorted.sort_unstable();
+    let mut border = sorted.clone();
+    border.retain(|&(from, to)| sorted.binary_search(&(to, from)).is_err());
+    if border.windows(2).any(|pair| pair[0].0 == pair[1].0) {
+        return None;
+    }
     let (start, mut next) = *border.first()?;
     let mut outline = vec![start];
     while next != start {
@@ -264,12 +326,8 @@ fn outline_of(sides: &[(u32, u32)]) -> Option<Vec<u32>> {
         if outline.len() > border.len() {
             return None;
         }
-        let here = next;
-        let mut onward = border.iter().filter(|side| side.0 == here);
-        next = onward.next()?.1;
-        if onward.next().is_some() {
-            return None;
-        }
+        let onward = border.binary_search_by(|side| side.0.cmp(&next)).ok()?;
+        next = border[onward].1;
     }
     (outline.len() == border.len()).then_some(outline)
 }
@@ -328,9 +386,9 @@ mod tests {
         for turn in [DQuat::IDENTITY, rotation_from_vector(DVec3::new(0.4, -1.1, 0.7))] {
             let points = cube_cloud(turn);
             let hull = Hull::new(&points).unwrap();
-            assert_eq!((hull.vertices().len(), hull.triangles().len(), hull.faces.len()), (8, 12, 6));
+            assert_eq!((hull.vertices().len(), hull.triangles().len(), hull.planes.len()), (8, 12, 6));
             assert_closed_and_convex(&hull, &points, 1e-12);
-            assert!(hull.faces.iter().all(|face| face.corners.len() == 4));
+            assert!((0..6).all(|side| hull.topology.ring(side).len() == 4) && hull.topology.is_closed());
             assert!(hull.vertices().iter().all(|vertex| points.contains(vertex)), "to the last bit");
             let mass = MassProperties::polyhedron(hull.vertices(), hull.triangles(), 700.0);
             let cube = MassProperties::cuboid(DVec3::splat(2.0), 700.0);
@@ -424,7 +482,7 @@ mod tests {
             let axes = DVec3::AXES.into_iter().flat_map(|axis| [axis, -axis]);
             for direction in random.chain(normals).chain(edges).chain(axes).take(4000) {
                 let height = |index: u32| hull.vertices()[index as usize].dot(direction);
-                let (found, top) = (hull.highest(direction), climb::highest(hull.vertices(), direction));
+                let (found, top) = (hull.highest(direction), hull.scan.highest(direction));
                 assert!(
                     found == top || height(top) - height(found) <= 1e-12 * extent * direction.length(),
                     "{} of {} along {direction}",
@@ -444,15 +502,16 @@ mod tests {
             for _ in 0..200 {
                 let direction = DVec3::new(number(), number(), number()) - DVec3::splat(0.5);
                 let top = hull.highest(direction);
-                let here = |face: &Face| hull.outlines[face.corners.clone()].contains(&top);
-                let best = hull.faces.iter().filter(|face| here(face)).map(|face| face.normal.dot(direction));
+                let sides = hull.planes.iter().zip(0..);
+                let here = sides.filter(|&(_, side)| hull.topology.ring(side).contains(&top));
+                let best = here.map(|(plane, _)| plane.normal.dot(direction));
                 let (found, _) = hull.face_towards(direction);
-                let along = hull.faces[found as usize].normal.dot(direction);
+                let along = hull.planes[found as usize].normal.dot(direction);
                 assert!(along >= best.fold(f64::NEG_INFINITY, f64::max));
             }
             for normal in hull.face_normals() {
                 let (face, _) = hull.face_towards(normal);
-                assert!(hull.faces[face as usize].normal.dot(normal) > 1.0 - 1e-9);
+                assert!(hull.planes[face as usize].normal.dot(normal) > 1.0 - 1e-9);
             }
         }
     }

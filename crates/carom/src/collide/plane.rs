@@ -1,8 +1,10 @@
-//! Round shapes and cuboids on a half space. The plane is `b`, so the normal points down into it.
+//! Round shapes, cuboids and hulls on a half space. The plane is `b`, so the normal points down into it.
 
 use super::ROUNDING;
 use super::cuboid::{self, Cuboid};
 use super::manifold::{ContactPoint, Manifold};
+use super::polygon::Patch;
+use super::polytope::Polytope;
 use super::round::Round;
 use crate::math::{DVec3, Pose};
 use crate::report::Feature;
@@ -88,4 +90,30 @@ pub(crate) fn box_manifold(cuboid: &Cuboid, plane: &HalfSpace, margin: f64) -> O
         }
     }
     Some(manifold)
+}
+
+/// The height of the lowest corner.
+pub(crate) fn hull_separation(hull: &Polytope, plane: &HalfSpace) -> f64 {
+    let down = hull.pose.rotation.conjugate() * -plane.up;
+    plane.height(hull.pose.transform_point(hull.corner(hull.highest(down))))
+}
+
+/// The best four corners of the side that looks down most; the lowest corner is one of them.
+pub(crate) fn hull_manifold(hull: &Polytope, plane: &HalfSpace, margin: f64) -> Option<Manifold> {
+    let down = hull.pose.rotation.conjugate() * -plane.up;
+    let lowest = hull.highest(down);
+    let place = |corner: u32| hull.pose.transform_point(hull.corner(corner));
+    let least = plane.height(place(lowest));
+    if least > margin {
+        return None;
+    }
+    let level = (least, hull.size() + plane.span(hull.pose.position));
+    let mut patch = Patch::new();
+    let ring = hull.topology.ring(hull.side_towards(down));
+    // Rounding may have found the side next to the one with the lowest corner.
+    let missing = (!ring.contains(&lowest)).then_some(lowest);
+    for corner in ring.iter().copied().chain(missing) {
+        patch.push(plane.contact(place(corner), level, Feature::Vertex(corner)));
+    }
+    patch.reduced(-plane.up, (least, 0.0), margin)
 }

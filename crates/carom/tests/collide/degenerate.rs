@@ -34,6 +34,12 @@ fn sized(kind: Kind, size: f64) -> Shape {
         Kind::Capsule => Shape::capsule(size, 0.25 * size),
         Kind::Cuboid => Shape::cuboid(size, size, size),
         Kind::Plane => Shape::plane(),
+        // A prism with six sides: as many parallel faces and edges as there can be.
+        Kind::Hull => {
+            let ring = [(1.0, 0.0), (0.5, 0.75), (-0.5, 0.75), (-1.0, 0.0), (-0.5, -0.75), (0.5, -0.75)];
+            let points = ring.map(|(x, z)| [-0.5, 0.5].map(|y| 0.5 * size * DVec3::new(x, 2.0 * y, z)));
+            Shape::hull(points.as_flattened()).unwrap()
+        }
     }
 }
 

@@ -41,6 +41,13 @@ impl Random {
             Kind::Capsule => Shape::capsule(2.0 * length(), 0.5 * length()),
             Kind::Cuboid => Shape::cuboid(length(), length(), length()),
             Kind::Plane => Shape::plane(),
+            Kind::Hull => {
+                let size = DVec3::new(length(), length(), length());
+                let corners = 4 + self.bits() % 20;
+                let points: Vec<DVec3> = (0..corners).map(|_| self.direction() * 0.5 * size).collect();
+                // Four points of a sphere lie in a plane once in a blue moon.
+                Shape::hull(&points).unwrap_or_else(|_| self.shape(Kind::Hull))
+            }
         }
     }
 
@@ -66,14 +73,20 @@ pub enum Kind {
     Capsule,
     Cuboid,
     Plane,
+    Hull,
 }
 
 /// All ordered pairs of shapes that can touch.
 pub fn kinds() -> impl Iterator<Item = (Kind, Kind)> {
-    const ALL: [Kind; 4] = [Kind::Sphere, Kind::Capsule, Kind::Cuboid, Kind::Plane];
+    const ALL: [Kind; 5] = [Kind::Sphere, Kind::Capsule, Kind::Cuboid, Kind::Plane, Kind::Hull];
     ALL.into_iter()
         .flat_map(|a| ALL.into_iter().map(move |b| (a, b)))
         .filter(|&pair| pair != (Kind::Plane, Kind::Plane))
+}
+
+/// The pairs of shapes that formulas describe: all but hulls.
+pub fn plain_kinds() -> impl Iterator<Item = (Kind, Kind)> {
+    kinds().filter(|pair| pair.0 != Kind::Hull && pair.1 != Kind::Hull)
 }
 
 /// The one manifold of a pair, if there is one.
