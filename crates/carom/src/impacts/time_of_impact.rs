@@ -80,7 +80,11 @@ impl<'a> Approach<'a> {
         let own = |shape: &Shape| {
             matches!(
                 shape,
-                Shape::Sphere { .. } | Shape::Cuboid { .. } | Shape::Capsule { .. } | Shape::Plane
+                Shape::Sphere { .. }
+                    | Shape::Cuboid { .. }
+                    | Shape::Capsule { .. }
+                    | Shape::Plane
+                    | Shape::Hull(_)
             )
         };
         let accuracy = if own(&a.shape) && own(&b.shape) { OWN_ACCURACY } else { PARRY_ACCURACY };

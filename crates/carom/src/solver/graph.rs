@@ -55,14 +55,17 @@ impl Color {
 /// How far islands are swept.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Effort {
-    /// An island is done when a sweep changes no velocity by more than this, m/s; a small one by more than `exactness`.
+    /// An island is done when a sweep changes no velocity by more than this, m/s.
     pub agreement: f32,
+    /// A small one that is solved directly, when nothing is further than this from what it asks for, m/s.
     pub exactness: f32,
-    /// Bodies of an island that move no faster against each other than this are about to rest, and worth that exactness, m/s.
+    /// Bodies of an island that move no faster against each other than this are about to rest, and worth the effort, m/s.
     pub quiet: f32,
     /// Sweeps that every contact gets.
     pub sweeps: u32,
-    /// An island may take so many sweeps times contacts before it has to go on in the next substep.
+    /// Sweeps that an island in motion may take.
+    pub in_motion: u32,
+    /// Sweeps times contacts that a quiet island may take, before it has to go on in the next substep.
     pub budget: u32,
 }
 
@@ -268,16 +271,27 @@ impl Graph {
             self.each_bundle(|bundle| contact::sweep::<Wide>(bundle, velocities));
         }
         self.find_islands(velocities.len(), |row| mobility(row as u32).is_some());
-        self.solve_small(velocities, effort, &mobility);
+        let quiet = self.quiet_islands(velocities, effort);
+        self.solve_small(velocities, (effort, &quiet), &mobility);
+        let sizes = self.islands.sizes.iter().zip(&quiet);
+        let most: Vec<u32> = sizes
+            .map(|(&size, &is_quiet)| if is_quiet { effort.budget / size.max(1) } else { effort.in_motion })
+            .collect();
+        self.sweep_on(velocities, effort, &most);
+    }
+
+    /// Sweeps the islands that do not agree yet, each up to so many times.
+    fn sweep_on(&mut self, velocities: &mut [Row], effort: Effort, most: &[u32]) {
         let mut searches: Vec<Search> = self
             .order()
             .flat_map(|color| (0..self.colors[color].bundles.len()).map(move |bundle| (color, bundle)))
             .map(Search::new)
             .collect();
-        let mut changed = vec![0.0; self.islands.sizes.len()];
+        let mut changed = vec![0.0; most.len()];
         let mut sweeps = effort.sweeps;
         loop {
-            let open = self.open_islands(&searches, effort, sweeps);
+            let mut open = self.open_islands(&searches, effort.agreement);
+            open.iter_mut().zip(most).for_each(|(open, &most)| *open &= sweeps < most);
             searches.retain(|search| {
                 let bundle = &self.colors[search.color].bundles[search.bundle];
                 (0..LANES).any(|lane| self.island_of(bundle, lane).is_some_and(|island| open[island]))
@@ -285,54 +299,50 @@ impl Graph {
             if searches.is_empty() {
                 return;
             }
-            for _ in 0..ROUND {
-                if std::env::var("P").is_ok() {
-                    for search in &searches {
-                        contact::sweep::<Wide>(
-                            &mut self.colors[search.color].bundles[search.bundle],
-                            velocities,
-                        );
-                    }
-                } else {
-                    self.search(velocities, &mut searches, &mut changed);
-                }
+            for _ in 1..ROUND {
+                self.search(velocities, &mut searches, &mut changed);
             }
             for search in &searches {
                 contact::sweep::<Wide>(&mut self.colors[search.color].bundles[search.bundle], velocities);
             }
-            sweeps += ROUND + 1;
+            sweeps += ROUND;
         }
     }
 
-    /// Solves those small islands directly whose velocities do not agree after the first sweeps.
+    /// Which islands are about to rest: no body moves fast against another.
+    fn quiet_islands(&self, velocities: &[Row], effort: Effort) -> Vec<bool> {
+        let mut spreads = vec![Spread::NONE; self.islands.sizes.len()];
+        for bundle in self.colors.iter().flat_map(|color| &color.bundles) {
+            for lane in 0..LANES {
+                if let Some(island) = self.island_of(bundle, lane) {
+                    spreads[island].include(&velocities[bundle.a[lane] as usize]);
+                    spreads[island].include(&velocities[bundle.b[lane] as usize]);
+                }
+            }
+        }
+        spreads.iter().map(|spread| spread.width() <= effort.quiet).collect()
+    }
+
+    /// Solves those small quiet islands directly whose velocities do not agree after the first sweeps.
     fn solve_small(
         &mut self,
         velocities: &mut [Row],
-        effort: Effort,
+        (effort, quiet): (Effort, &[bool]),
         mobility: impl Fn(u32) -> Option<Mobility>,
     ) {
-        let count = self.islands.sizes.len();
-        let mut members: Vec<Vec<(usize, usize)>> = vec![Vec::new(); count];
-        let mut is_open = vec![false; count];
-        let mut spread = vec![Spread::NONE; count];
+        let mut members: Vec<Vec<(usize, usize)>> = vec![Vec::new(); quiet.len()];
+        let mut is_open = vec![false; quiet.len()];
         for color in self.order() {
             for lane in 0..self.colors[color].contacts.len() {
                 let bundle = &self.colors[color].bundles[lane / LANES];
                 let Some(island) = self.island_of(bundle, lane % LANES) else { continue };
-                if self.islands.bodies[island] <= direct::BODIES {
+                if quiet[island] && self.islands.bodies[island] <= direct::BODIES {
                     members[island].push((color, lane));
                     is_open[island] |= bundle.get(lane % LANES, field::RESIDUAL) > effort.exactness;
-                    for row in [bundle.a[lane % LANES], bundle.b[lane % LANES]] {
-                        spread[island].include(&velocities[row as usize]);
-                    }
                 }
             }
         }
-        for (island, spread) in spread.iter().enumerate() {
-            is_open[island] &= spread.width() <= effort.quiet;
-        }
-        for (island, members) in members.iter().enumerate().filter(|(island, _)| is_open[*island]) {
-            let _ = island;
+        for (members, _) in members.iter().zip(is_open).filter(|(_, is_open)| *is_open) {
             let mut small = direct::Island::default();
             for &(color, lane) in members {
                 let bundle = &self.colors[color].bundles[lane / LANES];
@@ -403,16 +413,16 @@ impl Graph {
         of_row(bundle.a[lane]).or(of_row(bundle.b[lane])).map(|island| island as usize)
     }
 
-    /// Which islands have to be swept further.
-    fn open_islands(&self, searches: &[Search], effort: Effort, sweeps: u32) -> Vec<bool> {
+    /// Which islands do not agree.
+    fn open_islands(&self, searches: &[Search], agreement: f32) -> Vec<bool> {
         let mut open = vec![false; self.islands.sizes.len()];
         for search in searches {
             let bundle = &self.colors[search.color].bundles[search.bundle];
             for (lane, &residual) in bundle.lines[field::RESIDUAL].0.iter().enumerate() {
-                if residual > effort.agreement
+                if residual > agreement
                     && let Some(island) = self.island_of(bundle, lane)
                 {
-                    open[island] |= sweeps.saturating_mul(self.islands.sizes[island]) < effort.budget;
+                    open[island] = true;
                 }
             }
         }

@@ -36,8 +36,10 @@ const AGREEMENT: f64 = 1e-3;
 const EXACTNESS: f64 = 1e-5;
 const QUIET: f64 = 3.0;
 
-/// Sweeps that every contact gets in a substep, and contacts times sweeps that an island may take.
+/// Sweeps that every contact gets in a substep, that an island in motion may take, and contacts times sweeps that one about to
+/// rest may.
 const SWEEPS: u32 = 2;
+const IN_MOTION: u32 = 8;
 const BUDGET: u32 = 40_000;
 
 /// Share of an overlap that is pushed out at the end of a step, and of the contact margin that is left.
@@ -327,8 +329,14 @@ impl Rest {
         let agreement = (knob("A", AGREEMENT) * law.gravity.length() * substep).max(1e-7) as f32;
         let exactness = (EXACTNESS * law.gravity.length() * substep).max(1e-7) as f32;
         let quiet = (QUIET * law.gravity.length() * substep) as f32;
-        let effort =
-            Effort { agreement, exactness, quiet, sweeps: SWEEPS, budget: knob("B", BUDGET as f64) as u32 };
+        let effort = Effort {
+            agreement,
+            exactness,
+            quiet,
+            sweeps: SWEEPS,
+            in_motion: knob("M", IN_MOTION as f64) as u32,
+            budget: knob("B", BUDGET as f64) as u32,
+        };
         self.graph.solve(&mut self.rows.velocities, effort, |row| {
             let (state, constants) = (&bodies.states[row as usize], &bodies.constants[row as usize]);
             constants.is_movable().then(|| Mobility {
