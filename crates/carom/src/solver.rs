@@ -17,3 +17,6 @@ pub(crate) mod graph;
 pub(crate) mod lanes;
 pub(crate) mod prepare;
 pub(crate) mod rows;
+
+#[cfg(test)]
+mod tests;

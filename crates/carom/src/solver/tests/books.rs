@@ -1,0 +1,78 @@
+//! Momentum is kept, whatever acts.
+
+use super::*;
+use crate::solver::bundle::field;
+use crate::solver::contact::{begin, nudge};
+use crate::solver::lanes::{LANES, Line};
+
+type Wide = Portable<4>;
+
+fn assert_kept(problem: &Problem, before: &[Row], after: &[Row], impulses: f64) {
+    let (before, after) = (problem.momentum(before), problem.momentum(after));
+    let size = before[0].length() + before[1].length() + impulses;
+    for (one, other) in before.into_iter().zip(after) {
+        assert!((one - other).length() <= 3e-6 * size, "{one} became {other}; impulses {impulses}");
+    }
+}
+
+/// Two free bodies and up to three contacts between them, with impulses in them.
+fn problem(random: &mut Random) -> (Problem, Vec<Bundle>) {
+    let mut problem = Problem::new([Mover::random(random), Mover::random(random)]);
+    for _ in 0..1 + random.below(3) {
+        let bodies = if random.below(2) == 0 { [1, 2] } else { [2, 1] };
+        problem.random_touch(random, bodies);
+    }
+    let mut bundles = problem.bundles();
+    for bundle in &mut bundles {
+        for line in &field::IMPULSES[..bundle.points] {
+            bundle.lines[*line].0[0] = random.range(0.0, 1.0) as f32;
+        }
+        for line in &field::IMPULSES[4..] {
+            bundle.lines[*line].0[0] = random.range(-1.0, 1.0) as f32;
+        }
+    }
+    (problem, bundles)
+}
+
+#[test]
+fn begin_sweep_and_nudge_keep_the_momentum_of_two_free_bodies() {
+    let mut random = Random(11);
+    for _ in 0..500 {
+        let (problem, mut bundles) = problem(&mut random);
+        let start = problem.rows();
+        let mut rows = start.clone();
+        for bundle in &mut bundles {
+            begin::<Wide>(bundle, &mut rows, [MARGIN as f32, 240.0]);
+        }
+        assert_kept(&problem, &start, &rows, 10.0);
+        for _ in 0..3 {
+            for bundle in &mut bundles {
+                sweep::<Wide>(bundle, &mut rows);
+                assert_kept(&problem, &start, &rows, 10.0);
+            }
+        }
+        for bundle in &mut bundles {
+            let changes = std::array::from_fn(|row| {
+                let is_real = bundle.get(0, field::MASSES[row]) > 0.0;
+                Line([if is_real { random.range(-1.0, 1.0) as f32 } else { 0.0 }; LANES])
+            });
+            nudge::<Wide>(bundle, &mut rows, &changes);
+        }
+        assert_kept(&problem, &start, &rows, 20.0);
+    }
+}
+
+#[test]
+fn a_direct_solution_keeps_the_momentum_of_two_free_bodies() {
+    let mut random = Random(12);
+    for _ in 0..500 {
+        let (problem, bundles) = problem(&mut random);
+        let start = problem.rows();
+        let mut rows = start.clone();
+        let mut island = problem.island(&bundles, &rows);
+        island.solve(1e-6);
+        island.write(&mut rows);
+        let pressed: f32 = (0..bundles.len()).flat_map(|contact| island.impulses(contact)).map(f32::abs).sum();
+        assert_kept(&problem, &start, &rows, 10.0 + f64::from(pressed));
+    }
+}
