@@ -5,19 +5,22 @@
 //! stick, `w` what they ask for and `M` the masses, the multipliers' method (Hestenes 1969; Powell 1969) repeats
 //!
 //! ```text
-//! (M + JᵀDJ) δv = −JᵀD(Jv − w)        δλ = −D(J(v + δv) − w)        M δv = Jᵀ δλ
+//! (1 + BᵀJᵀDJB) δu = −BᵀJᵀD(Jv − w)        δv = B δu        δλ = −D(J(v + δv) − w)        M δv = Jᵀ δλ
 //! ```
 //!
-//! where each row of `D` is [`STIFFNESS`] times its effective mass: two or three rounds leave nothing. Then impulses that pull are
+//! where `B·Bᵀ = M⁻¹`, in which what cannot move is simply zero, and each row of `D` is [`STIFFNESS`] times its effective mass: two or three rounds leave nothing. Then impulses that pull are
 //! set to zero, those outside Coulomb's cone are put back on it, and the search goes on with the rows that press or stick
 //! now (an active-set method as in Silcowitz, Niebe and Erleben 2010, *subspace minimization*).
 //!
 //! The matrix has a block of six for each body and one for each pair in contact; it is factored in an order of least degree,
 //! without pivots, as it is positive definite.
 
+mod matrix;
+
 use super::bundle::{Bundle, POINTS, field};
 use super::lanes::Row;
 use crate::math::{DMat3, DVec3};
+use matrix::{Matrix, Vector, add_scaled, dot};
 
 /// An island may have so many bodies.
 pub(crate) const BODIES: usize = 64;
@@ -32,9 +35,6 @@ const STIFFNESS: f64 = 1e5;
 const MULTIPLIERS: usize = 3;
 const SETS: usize = 12;
 
-type Vector = [f64; 6];
-type Block = [[f64; 6]; 6];
-
 /// How a body answers to impulses: 1/kg, and 1/(kg·m²) in world axes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Mobility {
@@ -46,22 +46,38 @@ pub(crate) struct Mobility {
 struct Mover {
     row: u32,
     velocity: Vector,
-    mobility: Mobility,
+    /// `B` with `B·Bᵀ = M⁻¹`: of the mass, and of the inertia.
+    roots: (f64, DMat3),
 }
 
 impl Mover {
-    /// The velocity that an impulse (linear, angular) gives it.
-    fn response(&self, impulse: &Vector) -> Vector {
+    /// `Bᵀ` times an impulse.
+    fn scaled(&self, impulse: &Vector) -> Vector {
         let (linear, angular) = split(impulse);
-        join(linear * self.mobility.inverse_mass, self.mobility.inverse_inertia * angular)
+        join(linear * self.roots.0, self.roots.1.transpose() * angular)
     }
+
+    /// Changes the velocity by `B` times what is scaled.
+    fn gain(&mut self, scaled: &Vector, by: f64) {
+        let (linear, angular) = split(scaled);
+        add_scaled(&mut self.velocity, &join(linear * self.roots.0, self.roots.1 * angular), by);
+    }
+}
+
+/// What a unit impulse does to a body.
+#[derive(Clone, Debug)]
+struct Push {
+    mover: usize,
+    /// `Jᵀ`, and `BᵀJᵀ`.
+    unit: Vector,
+    scaled: Vector,
 }
 
 /// One impulse that is asked for.
 #[derive(Clone, Debug)]
 struct Unknown {
-    /// The bodies that it acts on, and with what a unit of it pushes them.
-    touches: [Option<(usize, Vector)>; 2],
+    /// What a unit of it does to the bodies that it acts on.
+    pushes: [Option<Push>; 2],
     /// The velocity that it is to bring about, along itself.
     wanted: f64,
     /// 1 / the response to a unit of it; 0 where there is none.
@@ -69,6 +85,12 @@ struct Unknown {
     impulse: f64,
     /// Whether it presses or sticks.
     is_active: bool,
+}
+
+impl Unknown {
+    fn pushes(&self) -> impl Iterator<Item = &Push> {
+        self.pushes.iter().flatten()
+    }
 }
 
 /// A contact of the island: its unknowns are [`field::ROWS`] in a row, in the order of [`field::IMPULSES`].
@@ -94,12 +116,21 @@ fn join(linear: DVec3, angular: DVec3) -> Vector {
     [linear.x, linear.y, linear.z, angular.x, angular.y, angular.z]
 }
 
-fn dot(a: &Vector, b: &Vector) -> f64 {
-    (0..6).map(|axis| a[axis] * b[axis]).sum()
-}
-
-fn add_scaled(to: &mut Vector, v: &Vector, by: f64) {
-    (0..6).for_each(|axis| to[axis] += by * v[axis]);
+/// `B` with `B·Bᵀ = A`, for a positive semidefinite `A`: Cholesky's factor, without the columns that are nothing but rounding.
+fn root(a: &DMat3) -> DMat3 {
+    const ROUNDING: f64 = 1e-12;
+    let least = ROUNDING * (a.x_axis.x + a.y_axis.y + a.z_axis.z);
+    let mut rest = *a;
+    let mut columns = [DVec3::ZERO; 3];
+    for (axis, column) in columns.iter_mut().enumerate() {
+        let pivot = rest.col(axis)[axis];
+        if pivot > least {
+            *column = rest.col(axis) / pivot.sqrt();
+            let [x, y, z] = column.to_array();
+            rest -= DMat3::from_cols(*column * x, *column * y, *column * z);
+        }
+    }
+    DMat3::from_cols_array_2d(&columns.map(|column| column.to_array()))
 }
 
 impl Island {
@@ -120,15 +151,17 @@ impl Island {
         let numbers = rows.map(|row| mobility(row).map(|it| self.number(row, it, velocities)));
 
         let mut unknown = |directions: [Vector; 2], wanted: f64, number: usize| {
-            let touches = [0, 1].map(|side| numbers[side].map(|mover| (mover, directions[side])));
-            let response: f64 = touches
-                .iter()
-                .flatten()
-                .map(|(mover, unit)| dot(unit, &self.movers[*mover].response(unit)))
-                .sum();
-            let mass = if get(field::MASSES[number]) > 0.0 && response > 0.0 { 1.0 / response } else { 0.0 };
+            let pushes = [0, 1].map(|side| {
+                let unit = directions[side];
+                numbers[side].map(|mover| Push { mover, unit, scaled: self.movers[mover].scaled(&unit) })
+            });
+            let response: f64 = pushes.iter().flatten().map(|push| dot(&push.scaled, &push.scaled)).sum();
+            // Friction's is that of its largest response, so that what slides does not overshoot.
+            let largest = if number < POINTS { f64::INFINITY } else { get(field::MASSES[number]) };
+            let is_real = get(field::MASSES[number]) > 0.0 && response > 0.0;
+            let mass = if is_real { (1.0 / response).min(largest) } else { 0.0 };
             let impulse = get(field::IMPULSES[number]);
-            self.unknowns.push(Unknown { touches, wanted, mass, impulse, is_active: false });
+            self.unknowns.push(Unknown { pushes, wanted, mass, impulse, is_active: false });
         };
         let along = |direction: DVec3, arms: [DVec3; 2]| {
             [join(-direction, -arms[0].cross(direction)), join(direction, arms[1].cross(direction))]
@@ -153,7 +186,8 @@ impl Island {
         self.movers.iter().position(|mover| mover.row == row).unwrap_or_else(|| {
             let values = velocities[row as usize].0.map(f64::from);
             let velocity = std::array::from_fn(|axis| values[axis]);
-            self.movers.push(Mover { row, velocity, mobility });
+            let roots = (mobility.inverse_mass.sqrt(), root(&mobility.inverse_inertia));
+            self.movers.push(Mover { row, velocity, roots });
             self.movers.len() - 1
         })
     }
@@ -172,27 +206,42 @@ impl Island {
         }
     }
 
-    /// Solves until no unknown's velocity is further than `agreement` (m/s) from what it asks for; whether it got there.
-    pub fn solve(&mut self, agreement: f64) -> bool {
+    /// Solves until no unknown's velocity is further than `agreement` (m/s) from what it asks for, or it seems that this will not be;
+    /// returns how far the worst is in what has been found, which is no further than before.
+    pub fn solve(&mut self, agreement: f64) -> f64 {
         let mut matrix = Matrix::new(self.movers.len());
+        let mut best = (self.residual(), self.state());
         for set in 0..SETS {
-            let residual = self.activate(set == 0);
-            if set > 0 && residual <= agreement {
-                return true;
-            }
+            self.activate(set == 0);
             self.assemble(&mut matrix);
             matrix.factor();
             for _ in 0..MULTIPLIERS {
                 self.step(&matrix);
             }
             self.project();
+            let residual = self.residual();
+            if residual <= agreement {
+                return residual;
+            }
+            if residual < best.0 {
+                best = (residual, self.state());
+            }
         }
-        self.activate(false) <= agreement
+        let (residual, (velocities, impulses)) = best;
+        self.movers.iter_mut().zip(velocities).for_each(|(mover, velocity)| mover.velocity = velocity);
+        self.unknowns.iter_mut().zip(impulses).for_each(|(unknown, impulse)| unknown.impulse = impulse);
+        residual
+    }
+
+    /// All velocities and impulses.
+    fn state(&self) -> (Vec<Vector>, Vec<f64>) {
+        let velocities = self.movers.iter().map(|mover| mover.velocity).collect();
+        (velocities, self.unknowns.iter().map(|unknown| unknown.impulse).collect())
     }
 
     /// The velocity of a contact along an unknown.
     fn velocity(&self, unknown: &Unknown) -> f64 {
-        unknown.touches.iter().flatten().map(|(mover, unit)| dot(unit, &self.movers[*mover].velocity)).sum()
+        unknown.pushes().map(|push| dot(&push.unit, &self.movers[push.mover].velocity)).sum()
     }
 
     /// Gives an unknown another impulse.
@@ -201,53 +250,71 @@ impl Island {
         let change = impulse - unknown.impulse;
         unknown.impulse = impulse;
         if change != 0.0 {
-            for (mover, unit) in unknown.touches.into_iter().flatten() {
-                let response = self.movers[mover].response(&unit);
-                add_scaled(&mut self.movers[mover].velocity, &response, change);
+            for push in unknown.pushes() {
+                self.movers[push.mover].gain(&push.scaled, change);
             }
         }
     }
 
-    /// Finds which unknowns press or stick; returns how far the worst is from what it asks for, m/s.
-    ///
-    /// The `first_time` all that could are taken to: what does not is seen afterwards, while to find from nothing what presses would take
-    /// a set for every layer of a stack.
-    fn activate(&mut self, first_time: bool) -> f64 {
-        let mut residual = 0.0_f64;
-        for contact in 0..self.contacts.len() {
-            let first = contact * field::ROWS;
-            let lacks: [f64; field::ROWS] = std::array::from_fn(|number| {
-                let unknown = &self.unknowns[first + number];
-                unknown.wanted - self.velocity(unknown)
-            });
-            for point in 0..POINTS {
-                let unknown = &mut self.unknowns[first + point];
-                let presses = unknown.impulse + unknown.mass * lacks[point] > 0.0;
-                let could = first_time && unknown.wanted > NEVER;
-                unknown.is_active = unknown.mass > 0.0 && (presses || could);
-                if unknown.is_active {
-                    residual = residual.max(lacks[point].abs());
-                }
+    /// The impulses that contact number `contact` would exert, were each of its unknowns alone: what it has and what it lacks, as far as
+    /// it may push; and which of them press or stick.
+    fn answer(&self, contact: usize) -> [(f64, bool); field::ROWS] {
+        let first = contact * field::ROWS;
+        let mut answer = std::array::from_fn(|number| {
+            let unknown = &self.unknowns[first + number];
+            let wanted = unknown.impulse + unknown.mass * (unknown.wanted - self.velocity(unknown));
+            (wanted, unknown.mass > 0.0)
+        });
+        for (impulse, presses) in &mut answer[..POINTS] {
+            *presses &= *impulse > 0.0;
+            *impulse = impulse.max(0.0);
+        }
+        let (friction, twist) = self.limits(contact);
+        for (numbers, [most, sliding]) in [(POINTS..POINTS + 2, friction), (POINTS + 2..POINTS + 3, twist)] {
+            let size =
+                answer[numbers.clone()].iter().map(|(impulse, _)| impulse * impulse).sum::<f64>().sqrt();
+            let slides = size > most || most == 0.0;
+            let share = if slides && size > sliding { sliding / size } else { 1.0 };
+            for (impulse, sticks) in &mut answer[numbers] {
+                *sticks &= !slides;
+                *impulse *= share;
             }
-            let (friction, twist) = self.limits(contact);
-            for (numbers, most) in [(POINTS..POINTS + 2, friction[0]), (POINTS + 2..POINTS + 3, twist[0])] {
-                let wanted = |number: usize| {
-                    let unknown = &self.unknowns[first + number];
-                    unknown.impulse + unknown.mass * lacks[number]
-                };
-                let square: f64 = numbers.clone().map(|number| wanted(number) * wanted(number)).sum();
-                let could = first_time && most == 0.0 && self.contacts[contact].static_friction > 0.0;
-                let sticks = could || (most > 0.0 && square <= most * most);
-                for number in numbers {
-                    let unknown = &mut self.unknowns[first + number];
-                    unknown.is_active = sticks && unknown.mass > 0.0;
-                    if unknown.is_active {
-                        residual = residual.max(lacks[number].abs());
-                    }
-                }
+        }
+        answer
+    }
+
+    /// How far the worst unknown is from what it asks for, m/s.
+    fn residual(&self) -> f64 {
+        let mut residual = 0.0_f64;
+        for (answers, unknowns) in
+            (0..self.contacts.len()).map(|it| self.answer(it)).zip(self.unknowns.chunks(field::ROWS))
+        {
+            for ((impulse, _), unknown) in answers.into_iter().zip(unknowns).filter(|it| it.1.mass > 0.0) {
+                residual = residual.max((impulse - unknown.impulse).abs() / unknown.mass);
             }
         }
         residual
+    }
+
+    /// Finds which unknowns press or stick, and lets the others have the impulses that they can exert.
+    ///
+    /// The `first_time` all that could are taken to: what does not is seen afterwards, while to find from nothing what presses would take
+    /// a set for every layer of a stack.
+    fn activate(&mut self, first_time: bool) {
+        for contact in 0..self.contacts.len() {
+            let (friction, _) = self.limits(contact);
+            let is_rough = self.contacts[contact].static_friction > 0.0;
+            for (number, (impulse, is_active)) in self.answer(contact).into_iter().enumerate() {
+                let index = contact * field::ROWS + number;
+                let unknown = &mut self.unknowns[index];
+                let could =
+                    if number < POINTS { unknown.wanted > NEVER } else { is_rough && friction[0] == 0.0 };
+                unknown.is_active = is_active || (first_time && could && unknown.mass > 0.0);
+                if !unknown.is_active {
+                    self.set(index, impulse);
+                }
+            }
+        }
     }
 
     /// What friction and twist may be, sticking and sliding.
@@ -262,14 +329,12 @@ impl Island {
 
     fn assemble(&self, matrix: &mut Matrix) {
         matrix.clear();
-        for (index, mover) in self.movers.iter().enumerate() {
-            matrix.add_mass(index, &mover.mobility);
-        }
+        (0..self.movers.len()).for_each(|index| matrix.add_identity(index));
         for unknown in self.unknowns.iter().filter(|unknown| unknown.is_active) {
-            let stiffness = STIFFNESS * unknown.mass;
-            for (mover, unit) in unknown.touches.iter().flatten() {
-                for (other, other_unit) in unknown.touches.iter().flatten() {
-                    matrix.add_product((*mover, *other), (unit, other_unit), stiffness);
+            for one in unknown.pushes() {
+                for other in unknown.pushes() {
+                    let blocks = (one.mover, other.mover);
+                    matrix.add_product(blocks, (&one.scaled, &other.scaled), STIFFNESS * unknown.mass);
                 }
             }
         }
@@ -279,23 +344,22 @@ impl Island {
     fn step(&mut self, matrix: &Matrix) {
         let mut change = vec![[0.0; 6]; self.movers.len()];
         for unknown in self.unknowns.iter().filter(|unknown| unknown.is_active) {
-            let push = STIFFNESS * unknown.mass * (unknown.wanted - self.velocity(unknown));
-            for (mover, unit) in unknown.touches.iter().flatten() {
-                add_scaled(&mut change[*mover], unit, push);
+            let lack = unknown.wanted - self.velocity(unknown);
+            for push in unknown.pushes() {
+                add_scaled(&mut change[push.mover], &push.scaled, STIFFNESS * unknown.mass * lack);
             }
         }
         matrix.solve(&mut change);
         for index in 0..self.unknowns.len() {
             let unknown = &self.unknowns[index];
             if unknown.is_active {
-                let touches = unknown.touches.iter().flatten();
-                let gained: f64 = touches.map(|(mover, unit)| dot(unit, &change[*mover])).sum();
+                let gained: f64 = unknown.pushes().map(|push| dot(&push.scaled, &change[push.mover])).sum();
                 let lack = unknown.wanted - self.velocity(unknown) - gained;
                 self.unknowns[index].impulse += STIFFNESS * unknown.mass * lack;
             }
         }
         for (mover, change) in self.movers.iter_mut().zip(&change) {
-            add_scaled(&mut mover.velocity, change, 1.0);
+            mover.gain(change, 1.0);
         }
     }
 
@@ -319,186 +383,5 @@ impl Island {
                 self.set(first + POINTS + 2, turn.clamp(-twist[1], twist[1]));
             }
         }
-    }
-}
-
-/// A symmetric positive definite matrix of blocks, and its factors `L·Lᵀ`.
-struct Matrix {
-    count: usize,
-    /// Place of each block of the lower triangle in `blocks`, row after row; or [`ABSENT`].
-    places: Vec<u32>,
-    blocks: Vec<Block>,
-    /// Bodies in the order in which they are eliminated, and the neighbours that each then still has.
-    order: Vec<usize>,
-    later: Vec<Vec<usize>>,
-    neighbors: Vec<u64>,
-}
-
-const ABSENT: u32 = u32::MAX;
-
-impl Matrix {
-    fn new(count: usize) -> Self {
-        Self {
-            count,
-            places: vec![ABSENT; count * count],
-            blocks: Vec::new(),
-            order: Vec::new(),
-            later: Vec::new(),
-            neighbors: vec![0; count],
-        }
-    }
-
-    fn clear(&mut self) {
-        self.places.fill(ABSENT);
-        self.neighbors.fill(0);
-        self.blocks.clear();
-        self.order.clear();
-        self.later.clear();
-    }
-
-    /// The block of rows `row` and columns `column`.
-    fn block(&mut self, row: usize, column: usize) -> &mut Block {
-        let place = &mut self.places[row * self.count + column];
-        if *place == ABSENT {
-            *place = self.blocks.len() as u32;
-            self.blocks.push([[0.0; 6]; 6]);
-            if row != column {
-                self.neighbors[row] |= 1 << column;
-            }
-        }
-        let place = *place as usize;
-        &mut self.blocks[place]
-    }
-
-    fn at(&self, row: usize, column: usize) -> &Block {
-        &self.blocks[self.places[row * self.count + column] as usize]
-    }
-
-    fn add_mass(&mut self, index: usize, mobility: &Mobility) {
-        // What cannot be moved on an axis has no mass there that a number could hold: a stiffness far above all others.
-        const IMMENSE: f64 = 1e18;
-        let block = self.block(index, index);
-        let mass = if mobility.inverse_mass > 0.0 { 1.0 / mobility.inverse_mass } else { IMMENSE };
-        (0..3).for_each(|axis| block[axis][axis] += mass);
-        let inertia = pseudo_inverse(&mobility.inverse_inertia, IMMENSE);
-        for row in 0..3 {
-            for column in 0..3 {
-                block[3 + row][3 + column] += inertia.col(column)[row];
-            }
-        }
-    }
-
-    fn add_product(
-        &mut self,
-        (row, column): (usize, usize),
-        (left, right): (&Vector, &Vector),
-        stiffness: f64,
-    ) {
-        let block = self.block(row, column);
-        for i in 0..6 {
-            for j in 0..6 {
-                block[i][j] += stiffness * left[i] * right[j];
-            }
-        }
-    }
-
-    /// Factors in place: the block of a body becomes `L`, those of its later neighbours `B·L⁻ᵀ`.
-    fn factor(&mut self) {
-        let mut left: u64 = if self.count == 64 { u64::MAX } else { (1 << self.count) - 1 };
-        while left != 0 {
-            let degree = |body: &usize| (self.neighbors[*body] & left).count_ones();
-            let Some(pivot) = bits(left).min_by_key(degree) else { return };
-            left &= !(1 << pivot);
-            let later: Vec<usize> = bits(self.neighbors[pivot] & left).collect();
-            cholesky(self.block(pivot, pivot));
-            let factor = *self.at(pivot, pivot);
-            for &row in &later {
-                let block = self.block(row, pivot);
-                block.iter_mut().for_each(|line| forward(&factor, line));
-            }
-            for (number, &row) in later.iter().enumerate() {
-                for &column in &later[..=number] {
-                    let (one, other) = (*self.at(row, pivot), *self.at(column, pivot));
-                    let target = self.block(row, column);
-                    for i in 0..6 {
-                        for j in 0..6 {
-                            target[i][j] -= dot(&one[i], &other[j]);
-                        }
-                    }
-                    if row != column {
-                        let transposed = std::array::from_fn(|i| std::array::from_fn(|j| target[j][i]));
-                        *self.block(column, row) = transposed;
-                    }
-                }
-            }
-            self.order.push(pivot);
-            self.later.push(later);
-        }
-    }
-
-    /// Replaces `values` by the solution.
-    fn solve(&self, values: &mut [Vector]) {
-        for (&pivot, later) in self.order.iter().zip(&self.later) {
-            forward(self.at(pivot, pivot), &mut values[pivot]);
-            let known = values[pivot];
-            for &row in later {
-                let block = self.at(row, pivot);
-                (0..6).for_each(|axis| values[row][axis] -= dot(&block[axis], &known));
-            }
-        }
-        for (&pivot, later) in self.order.iter().zip(&self.later).rev() {
-            let mut value = values[pivot];
-            for &row in later {
-                let block = self.at(row, pivot);
-                (0..6).for_each(|axis| add_scaled(&mut value, &block[axis], -values[row][axis]));
-            }
-            backward(self.at(pivot, pivot), &mut value);
-            values[pivot] = value;
-        }
-    }
-}
-
-/// The bits that are set, from the lowest.
-fn bits(mut mask: u64) -> impl Iterator<Item = usize> {
-    std::iter::from_fn(move || {
-        (mask != 0).then(|| {
-            let bit = mask.trailing_zeros() as usize;
-            mask &= mask - 1;
-            bit
-        })
-    })
-}
-
-/// The inertia; where nothing turns the body it is `immense`.
-fn pseudo_inverse(inverse: &DMat3, immense: f64) -> DMat3 {
-    let least = (inverse.x_axis.x + inverse.y_axis.y + inverse.z_axis.z) / immense + 1.0 / immense;
-    (*inverse + DMat3::from_diagonal(DVec3::splat(least))).inverse()
-}
-
-/// `A = L·Lᵀ` in place; the upper triangle is left as it was.
-fn cholesky(block: &mut Block) {
-    for column in 0..6 {
-        for row in column..6 {
-            let known: f64 = (0..column).map(|k| block[row][k] * block[column][k]).sum();
-            let rest = block[row][column] - known;
-            block[row][column] =
-                if row == column { rest.max(f64::MIN_POSITIVE).sqrt() } else { rest / block[column][column] };
-        }
-    }
-}
-
-/// Solves `L·x = v` in place.
-fn forward(factor: &Block, v: &mut Vector) {
-    for row in 0..6 {
-        let known: f64 = (0..row).map(|k| factor[row][k] * v[k]).sum();
-        v[row] = (v[row] - known) / factor[row][row];
-    }
-}
-
-/// Solves `Lᵀ·x = v` in place.
-fn backward(factor: &Block, v: &mut Vector) {
-    for row in (0..6).rev() {
-        let known: f64 = (row + 1..6).map(|k| factor[k][row] * v[k]).sum();
-        v[row] = (v[row] - known) / factor[row][row];
     }
 }

@@ -348,16 +348,14 @@ impl Graph {
                 let bundle = &self.colors[color].bundles[lane / LANES];
                 small.add(bundle, lane % LANES, velocities, &mobility);
             }
-            let agrees = small.solve(f64::from(effort.exactness));
+            let residual = small.solve(f64::from(effort.exactness)) as f32;
             small.write(velocities);
             for (number, &(color, lane)) in members.iter().enumerate() {
                 let bundle = &mut self.colors[color].bundles[lane / LANES];
                 for (line, impulse) in field::IMPULSES.into_iter().zip(small.impulses(number)) {
                     bundle.lines[line].0[lane % LANES] = impulse;
                 }
-                if agrees {
-                    bundle.lines[field::RESIDUAL].0[lane % LANES] = 0.0;
-                }
+                bundle.lines[field::RESIDUAL].0[lane % LANES] = residual;
             }
         }
     }

@@ -72,7 +72,8 @@ fn a_direct_solution_keeps_the_momentum_of_two_free_bodies() {
         let mut island = problem.island(&bundles, &rows);
         island.solve(1e-6);
         island.write(&mut rows);
-        let pressed: f32 = (0..bundles.len()).flat_map(|contact| island.impulses(contact)).map(f32::abs).sum();
+        let pressed: f32 =
+            (0..bundles.len()).flat_map(|contact| island.impulses(contact)).map(f32::abs).sum();
         assert_kept(&problem, &start, &rows, 10.0 + f64::from(pressed));
     }
 }

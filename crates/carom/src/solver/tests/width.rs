@@ -20,7 +20,8 @@ fn bundle(random: &mut Random, share: f64) -> (Problem, Bundle) {
         let mut values = problem.lane(touch);
         for (number, line) in field::IMPULSES.into_iter().enumerate() {
             let low = if number < 4 { 0.0 } else { -0.5 };
-            values[line] = if values[field::MASSES[number]] > 0.0 { random.range(low, 0.5) as f32 } else { 0.0 };
+            values[line] =
+                if values[field::MASSES[number]] > 0.0 { random.range(low, 0.5) as f32 } else { 0.0 };
         }
         for point in 0..touch.points.len() {
             values[field::of_point(point, field::BASE)] = random.range(-1e-3, 1e-3) as f32;
@@ -31,7 +32,11 @@ fn bundle(random: &mut Random, share: f64) -> (Problem, Bundle) {
 }
 
 /// Everything that the kernels do, one after the other: the bits of the bundle and of all rows.
-fn run<L: Lanes>(bundle: &Bundle, rows: &[Row], (drifts, changes): (&[Row], &[Line; field::ROWS])) -> Vec<u32> {
+fn run<L: Lanes>(
+    bundle: &Bundle,
+    rows: &[Row],
+    (drifts, changes): (&[Row], &[Line; field::ROWS]),
+) -> Vec<u32> {
     let (mut bundle, mut rows) = (bundle.clone(), rows.to_vec());
     let mut displacements = rows.clone();
     measure::<L>(&mut bundle, drifts);
