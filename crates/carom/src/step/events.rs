@@ -154,9 +154,12 @@ impl<'a> Events<'a> {
                 return;
             }
             let separation = approach.separation(span.from);
-            let instant = approach.next_touch(span.from, until, false);
-            self.pairs[index].measured(self.bodies, separation, span.from);
-            instant
+            let pair = &mut self.pairs[index];
+            pair.measured(self.bodies, separation, span.from);
+            if pair.least_separation(self.bodies, until) > approach.tolerance() {
+                return;
+            }
+            approach.next_touch(span.from, until, false)
         };
         if let Some(time) = instant {
             let pair = &self.pairs[index];
