@@ -276,9 +276,16 @@ impl Graph {
         let quiet = self.quiet_islands(velocities, effort);
         self.solve_small(velocities, (effort, &quiet), &mobility);
         let sizes = self.islands.sizes.iter().zip(&quiet);
-        let most: Vec<u32> = sizes
-            .map(|(&size, &is_quiet)| if is_quiet { effort.budget / size.max(1) } else { effort.in_motion })
-            .collect();
+        let most: Vec<u32> =
+            sizes
+                .map(|(&size, &is_quiet)| {
+                    if is_quiet {
+                        effort.in_motion.max(effort.budget / size.max(1))
+                    } else {
+                        effort.in_motion
+                    }
+                })
+                .collect();
         self.sweep_on(velocities, effort, &most);
     }
 

@@ -191,8 +191,12 @@ impl<'a> Events<'a> {
         if !self.comes_to_rest(index, &touch) {
             self.pairs[index].now.hits += 1;
             let surface = self.pairs[index].surface;
+            let stays = -touch.closing_speed * surface.restitution <= touch.rest_speed;
+            let parts = |approach: Option<Approach>| {
+                approach.is_some_and(|approach| approach.parts(&touch.contact, touch.normal))
+            };
             self.impacts.extend(strike(self.bodies, colliders, &touch, &surface, time));
-            if !rests && -touch.closing_speed * surface.restitution <= touch.rest_speed {
+            if !rests && stays && !parts(Approach::of(self.bodies, colliders, self.law)) {
                 self.rest.take(self.bodies, self.pairs, index, (self.law, span));
             }
             for row in rows {
