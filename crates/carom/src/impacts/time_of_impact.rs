@@ -9,6 +9,7 @@ use crate::collide::{self, ContactPoint, Manifold};
 use crate::flight::fly_center;
 use crate::impulse::Velocity;
 use crate::math::{DVec3, Pose};
+use crate::report::Feature;
 use crate::shape::Shape;
 use crate::step::motion::{free_influence, state_at};
 
@@ -166,10 +167,30 @@ impl<'a> Approach<'a> {
                 if closing > rest_speed || (gap > self.tolerance && speed_at_touch > rest_speed) {
                     return false;
                 }
-                is_near |= closing >= -rest_speed;
+                is_near |= closing >= -rest_speed
+                    && !(closing <= self.noise && self.parts(contact, manifold.normal));
             }
         }
         is_near
+    }
+
+    /// Whether a point that neither closes nor opens is about to open: a corner swings away faster than the two are pressed
+    /// together.
+    pub fn parts(&self, contact: &ContactPoint, normal: DVec3) -> bool {
+        let acceleration = |collider: &ColliderRow, feature: Feature| {
+            let row = collider.row;
+            let state = &self.bodies.states[row];
+            let spin = self.bodies.constants[row].angular_velocity(state);
+            let swing = match feature {
+                Feature::Vertex(_) if row != WORLD_ROW => {
+                    spin.cross(spin.cross(contact.point - state.position))
+                }
+                _ => DVec3::ZERO,
+            };
+            swing + free_influence(self.bodies, row, self.law.gravity).acceleration
+        };
+        let apart = acceleration(self.b, contact.feature_b) - acceleration(self.a, contact.feature_a);
+        apart.dot(normal) > 0.0
     }
 
     fn normal_velocity(&self, point: DVec3, normal: DVec3, time: f64) -> f64 {

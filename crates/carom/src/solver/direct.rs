@@ -10,7 +10,7 @@
 //!
 //! where `B·Bᵀ = M⁻¹`, in which what cannot move is simply zero, and each row of `D` is [`STIFFNESS`] times its effective mass: two or three rounds leave nothing. Then impulses that pull are
 //! set to zero, those outside Coulomb's cone are put back on it, and the search goes on with the rows that press or stick
-//! now (an active-set method as in Silcowitz, Niebe and Erleben 2010, *subspace minimization*).
+//! now, after some sweeps (as in Silcowitz, Niebe and Erleben 2009, *Projected Gauss–Seidel subspace minimization*).
 //!
 //! The matrix has a block of six for each body and one for each pair in contact; it is factored in an order of least degree,
 //! without pivots, as it is positive definite.
@@ -23,7 +23,10 @@ use crate::math::{DMat3, DVec3};
 use matrix::{Matrix, Vector, add_scaled, dot};
 
 /// An island may have so many bodies.
-pub(crate) const BODIES: usize = 64;
+pub(crate) const BODIES: usize = 256;
+
+/// Blocks multiplied, about, after which no further set is tried.
+const WORK: usize = 1_000_000;
 
 /// A point that is out of reach asks for less than this, m/s.
 const NEVER: f64 = -1e20;
@@ -34,6 +37,9 @@ const STIFFNESS: f64 = 1e5;
 /// Rounds of multipliers for one set of rows, and sets of rows that are tried.
 const MULTIPLIERS: usize = 3;
 const SETS: usize = 12;
+
+/// Sweeps between two sets.
+const SWEEPS: usize = 8;
 
 /// How a body answers to impulses: 1/kg, and 1/(kg·m²) in world axes.
 #[derive(Clone, Copy, Debug)]
@@ -211,10 +217,14 @@ impl Island {
     pub fn solve(&mut self, agreement: f64) -> f64 {
         let mut matrix = Matrix::new(self.movers.len());
         let mut best = (self.residual(), self.state());
+        let mut work = 0;
         for set in 0..SETS {
+            if work > WORK {
+                break;
+            }
             self.activate(set == 0);
             self.assemble(&mut matrix);
-            matrix.factor();
+            work += matrix.factor();
             for _ in 0..MULTIPLIERS {
                 self.step(&matrix);
             }
@@ -225,6 +235,9 @@ impl Island {
             }
             if residual < best.0 {
                 best = (residual, self.state());
+            }
+            for _ in 0..SWEEPS {
+                self.sweep();
             }
         }
         let (residual, (velocities, impulses)) = best;
@@ -363,6 +376,22 @@ impl Island {
         }
     }
 
+    /// One sweep of Gauss–Seidel, which tells the rows that press and stick from those that do not.
+    fn sweep(&mut self) {
+        for contact in 0..self.contacts.len() {
+            let first = contact * field::ROWS;
+            for index in first..first + field::ROWS {
+                let unknown = &self.unknowns[index];
+                let lack = unknown.wanted - self.velocity(unknown);
+                self.set(index, unknown.impulse + unknown.mass * lack);
+                if index < first + POINTS {
+                    self.set(index, self.unknowns[index].impulse.max(0.0));
+                }
+            }
+            self.project_friction(contact);
+        }
+    }
+
     /// Puts impulses back to what contacts can exert.
     fn project(&mut self) {
         for contact in 0..self.contacts.len() {
@@ -370,18 +399,23 @@ impl Island {
             for point in first..first + POINTS {
                 self.set(point, self.unknowns[point].impulse.max(0.0));
             }
-            let (friction, twist) = self.limits(contact);
-            let (x, y) = (self.unknowns[first + POINTS].impulse, self.unknowns[first + POINTS + 1].impulse);
-            let size = (x * x + y * y).sqrt();
-            if size > friction[0] {
-                let share = (friction[1] / size).min(1.0);
-                self.set(first + POINTS, share * x);
-                self.set(first + POINTS + 1, share * y);
-            }
-            let turn = self.unknowns[first + POINTS + 2].impulse;
-            if turn.abs() > twist[0] {
-                self.set(first + POINTS + 2, turn.clamp(-twist[1], twist[1]));
-            }
+            self.project_friction(contact);
+        }
+    }
+
+    fn project_friction(&mut self, contact: usize) {
+        let first = contact * field::ROWS;
+        let (friction, twist) = self.limits(contact);
+        let (x, y) = (self.unknowns[first + POINTS].impulse, self.unknowns[first + POINTS + 1].impulse);
+        let size = (x * x + y * y).sqrt();
+        if size > friction[0] {
+            let share = (friction[1] / size).min(1.0);
+            self.set(first + POINTS, share * x);
+            self.set(first + POINTS + 1, share * y);
+        }
+        let turn = self.unknowns[first + POINTS + 2].impulse;
+        if turn.abs() > twist[0] {
+            self.set(first + POINTS + 2, turn.clamp(-twist[1], twist[1]));
         }
     }
 }

@@ -111,11 +111,6 @@ impl Mover {
         mover
     }
 
-    pub fn moving(mut self, linear: DVec3) -> Self {
-        self.velocity.linear = linear;
-        self
-    }
-
     pub fn is_movable(&self) -> bool {
         self.inverse_mass > 0.0 || self.inverse_inertia != DMat3::ZERO
     }

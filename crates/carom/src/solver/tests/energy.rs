@@ -5,22 +5,17 @@ use super::*;
 #[test]
 fn sweeps_from_zero_impulses_never_add_kinetic_energy() {
     let mut random = Random(41);
-    let mut worst: f64 = 0.0;
     for _ in 0..400 {
         let count = 1 + random.below(8);
         let problem = Problem::random(&mut random, count);
         let (mut rows, mut bundles) = (problem.rows(), problem.bundles());
         let start = problem.energy(&rows);
-        let mut before = start;
         for number in 0..40 {
             for bundle in &mut bundles {
                 sweep::<Portable<4>>(bundle, &mut rows);
                 let energy = problem.energy(&rows);
                 assert!(energy <= start * (1.0 + 1e-5), "sweep {number}: {start} J have become {energy} J");
-                worst = worst.max((energy - before) / start);
-                before = energy;
             }
         }
     }
-    println!("the largest gain of one contact: {worst}");
 }

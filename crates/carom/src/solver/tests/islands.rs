@@ -231,7 +231,7 @@ fn a_stack_of_as_many_bodies_as_an_island_may_have_stands() {
 fn bodies_that_some_axes_hold_move_about_the_others_only() {
     let mut random = Random(52);
     let mut agreed = 0;
-    for round in 0..300 {
+    for round in 0..100 {
         let count = 1 + random.below(4);
         let mut problem = Problem::random(&mut random, count);
         for mover in problem.movers.iter_mut().skip(1) {
@@ -250,10 +250,9 @@ fn bodies_that_some_axes_hold_move_about_the_others_only() {
         let movable = |body: usize| problem.movers[body].is_movable();
         let touches = problem.touches.iter().filter(|touch| touch.bodies.into_iter().any(movable));
         problem = Problem { touches: touches.cloned().collect(), movers: problem.movers.clone() };
-        let (truth, _) = problem.swept(20000);
+        let (truth, _) = problem.swept(10000);
         let (rows, impulses, agrees) = solved(&problem, 1e-5);
-        let (start, end) = (problem.energy(&problem.rows()), problem.energy(&rows));
-        println!("round {round}: {agrees} {start} {end} {}", difference(&rows, &truth));
+        assert!(problem.energy(&rows) <= problem.energy(&problem.rows()) * (1.0 + 1e-6), "round {round}");
         if agrees {
             agreed += 1;
             assert_lawful(&problem, &rows, &impulses, 1e-3);
@@ -266,7 +265,7 @@ fn bodies_that_some_axes_hold_move_about_the_others_only() {
             assert!(held.length() <= 1e-4, "round {round}: turned by {held} about axes that are held");
         }
     }
-    assert!(agreed > 200, "{agreed}");
+    assert!(agreed > 80, "{agreed}");
 }
 
 #[test]
@@ -278,13 +277,11 @@ fn random_islands_end_lawful_or_say_so() {
         let problem = Problem::random(&mut random, count);
         let (rows, impulses, agrees) = solved(&problem, 1e-5);
         assert!(rows.iter().flat_map(|row| row.0).all(f32::is_finite));
-        let (start, two, end) =
-            (problem.energy(&problem.rows()), problem.energy(&problem.swept(2).0), problem.energy(&rows));
-        println!("{agrees} {start} {two} {end}");
+        assert!(problem.energy(&rows) <= problem.energy(&problem.rows()) * (1.0 + 1e-6));
         if agrees {
             agreed += 1;
             assert_lawful(&problem, &rows, &impulses, 1e-3);
         }
     }
-    println!("{agreed} of 200 agreed");
+    assert!(agreed > 20, "{agreed}");
 }
