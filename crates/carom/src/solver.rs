@@ -19,4 +19,4 @@ pub(crate) mod prepare;
 pub(crate) mod rows;
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

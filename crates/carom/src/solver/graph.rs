@@ -525,3 +525,8 @@ const PAUSE: u32 = 16;
 
 /// Sweeps that push overlaps out.
 const PUSH_SWEEPS: usize = 4;
+
+#[cfg(test)]
+mod tests;
+#[cfg(test)]
+mod validate;

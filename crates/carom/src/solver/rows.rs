@@ -77,6 +77,12 @@ impl Rows {
         self.contacts.get(row).is_some_and(|&count| count > 0)
     }
 
+    /// How many contacts the body of a row has.
+    #[cfg(test)]
+    pub fn count(&self, row: usize) -> u32 {
+        self.contacts.get(row).copied().unwrap_or(0)
+    }
+
     /// Counts one more contact of a body.
     pub fn hold(&mut self, row: usize) {
         if row != WORLD_ROW {

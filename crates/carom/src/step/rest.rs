@@ -473,3 +473,6 @@ fn follow(bodies: &mut Bodies, row: usize, change: [DVec3; 2], (substep, steady)
     };
     debug_assert!(row != WORLD_ROW);
 }
+
+#[cfg(test)]
+mod validate;

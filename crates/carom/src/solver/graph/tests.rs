@@ -1,0 +1,109 @@
+//! The graph against a model of it.
+
+use super::*;
+use crate::math::DMat3;
+use crate::solver::tests::Random;
+
+/// A contact as the model knows it; its number is written into its lane.
+struct Known {
+    id: ContactId,
+    rows: [u32; 2],
+    number: f32,
+}
+
+/// Where a lane keeps a number of no meaning for these tests.
+const NUMBER: usize = field::of_point(3, field::BASE);
+
+fn numbered(number: f32, points: usize) -> Lane {
+    let mut lane = [0.0; field::COUNT];
+    lane[NUMBER] = number;
+    (0..points).for_each(|point| lane[field::of_point(point, field::MASS)] = 1.0);
+    lane
+}
+
+#[test]
+fn contacts_come_and_go_and_their_bodies_get_other_rows() {
+    for seed in 0..8 {
+        let mut random = Random(seed);
+        let mut graph = Graph::default();
+        let mut known: Vec<Known> = Vec::new();
+        // Of each row: whether it is movable. Row 0 is the world's.
+        let mut movable = vec![false];
+        let mut next = 1.0;
+        for round in 0..3000 {
+            match random.below(if round % 1000 < 600 { 8 } else { 16 }) {
+                0 => movable.push(random.below(6) > 0),
+                1 if movable.len() > 2 => {
+                    // A body goes, first its contacts, and that of the last row gets its row.
+                    let (row, last) = (1 + random.below(movable.len() - 1), movable.len() - 1);
+                    known.retain(|contact| {
+                        let stays = !contact.rows.contains(&(row as u32));
+                        if !stays {
+                            graph.remove(contact.id);
+                        }
+                        stays
+                    });
+                    movable.swap_remove(row);
+                    if row != last {
+                        graph.rename_row(last as u32, row as u32);
+                        let rows = known.iter_mut().flat_map(|contact| &mut contact.rows);
+                        rows.filter(|it| **it == last as u32).for_each(|it| *it = row as u32);
+                    }
+                }
+                2..7 if movable.len() > 2 => {
+                    let (a, b) = (random.below(movable.len()), random.below(movable.len()));
+                    if a != b && (movable[a] || movable[b]) {
+                        let rows = [a as u32, b as u32];
+                        let lane = numbered(next, 1 + random.below(4));
+                        let id = graph.insert(rows, [movable[a], movable[b]], &lane);
+                        known.push(Known { id, rows, number: next });
+                        next += 1.0;
+                    }
+                }
+                7 if !known.is_empty() => {
+                    let contact = random.below(known.len());
+                    known[contact].number = next;
+                    graph.write(known[contact].id, &numbered(next, 1 + random.below(4)));
+                    next += 1.0;
+                }
+                _ if !known.is_empty() => graph.remove(known.swap_remove(random.below(known.len())).id),
+                _ => {}
+            }
+            if round % 7 == 0 {
+                graph.find_islands(movable.len(), |row| movable[row]);
+            }
+            graph.validate(|row| movable[row as usize]);
+            assert_eq!(graph.len(), known.len());
+            for contact in &known {
+                assert_eq!(graph.rows(contact.id), contact.rows);
+                assert_eq!(graph.get(contact.id, NUMBER), contact.number);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_solve_leaves_what_it_does_not_concern() {
+    let mut graph = Graph::default();
+    let lane = numbered(1.0, 0);
+    let one = graph.insert([0, 1], [false, true], &lane);
+    graph.remove(one);
+    graph.remove(one);
+    assert_eq!(graph.rows(one), [0, 0]);
+    assert_eq!(graph.get(one, NUMBER), 0.0);
+    let effort =
+        Effort { agreement: 1e-5, exactness: 1e-7, quiet: 1.0, sweeps: 2, in_motion: 8, budget: 100 };
+    let mobility = |row| {
+        let inverse_inertia = DMat3::IDENTITY;
+        (row > 0).then_some(Mobility { inverse_mass: 1.0, inverse_inertia })
+    };
+    let row = Row([1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 1.0, 1.0]);
+    let mut velocities = vec![Row::ZERO, row, row];
+    graph.solve(&mut velocities, effort, mobility);
+    assert_eq!(velocities, [Row::ZERO, row, row]);
+    // A contact none of whose points can press.
+    graph.insert([0, 2], [false, true], &lane);
+    graph.measure(&vec![Row::ZERO; 3]);
+    graph.solve(&mut velocities, effort, mobility);
+    assert_eq!(velocities, [Row::ZERO, row, row]);
+}
