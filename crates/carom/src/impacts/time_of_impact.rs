@@ -29,6 +29,11 @@ impl RestLaw {
         0.5 * self.gravity.length() * self.substep * self.substep + 1e-6
     }
 
+    /// The rest threshold of what gravity alone presses against something that does not move, m/s.
+    pub fn rest_speed(&self) -> f64 {
+        0.5 * self.gravity.length() * self.substep
+    }
+
     /// Speed (m/s) with which a resting pair may close until it settles again: one that covers the contact margin in a
     /// substep.
     pub fn drift_speed(&self) -> f64 {

@@ -321,22 +321,13 @@ impl Rest {
             self.rows.read_velocity(bodies, row, gain);
             gains.push((gain, free.torque * substep, self.rows.velocities[row]));
         }
-        fn knob(n: &str, d: f64) -> f64 {
-            std::env::var(n).ok().and_then(|x| x.parse().ok()).unwrap_or(d)
-        }
         self.graph.begin(&mut self.rows.velocities, law.contact_margin(), substep);
         let persisting: Vec<Row> = held.iter().map(|&row| self.rows.velocities[row]).collect();
-        let agreement = (knob("A", AGREEMENT) * law.gravity.length() * substep).max(1e-7) as f32;
+        let agreement = (AGREEMENT * law.gravity.length() * substep).max(1e-7) as f32;
         let exactness = (EXACTNESS * law.gravity.length() * substep).max(1e-7) as f32;
         let quiet = (QUIET * law.gravity.length() * substep) as f32;
-        let effort = Effort {
-            agreement,
-            exactness,
-            quiet,
-            sweeps: SWEEPS,
-            in_motion: knob("M", IN_MOTION as f64) as u32,
-            budget: knob("B", BUDGET as f64) as u32,
-        };
+        let effort =
+            Effort { agreement, exactness, quiet, sweeps: SWEEPS, in_motion: IN_MOTION, budget: BUDGET };
         self.graph.solve(&mut self.rows.velocities, effort, |row| {
             let (state, constants) = (&bodies.states[row as usize], &bodies.constants[row as usize]);
             constants.is_movable().then(|| Mobility {
@@ -352,7 +343,10 @@ impl Rest {
             let after = self.rows.velocities[row];
             let [linear, angular] = difference(&after, &before);
             let inertia = bodies.constants[row].inertia(bodies.states[row].rotation);
-            let change = [gain[0] + linear, turn + inertia * angular];
+            let mut change = [gain[0] + linear, turn + inertia * angular];
+            if linear.length() > SUPPORTED * gain[0].length() {
+                capture(bodies, row, &mut change, law);
+            }
             let sudden = difference(&after, &warm);
             let steady =
                 sudden[0].length().max(sudden[1].length() * bodies.grains[row]) <= STEADY * gain[0].length();
@@ -396,8 +390,7 @@ impl Rest {
     }
 
     /// Whether all points of a pair that rests are so near that the contacts have them all.
-    pub fn is_closed(&self, pair: &Pair, law: RestLaw) -> bool {
-        let _ = law;
+    pub fn is_closed(&self, pair: &Pair) -> bool {
         pair.supports.iter().all(|support| {
             let get = |field: usize| self.graph.get(support.contact, field);
             get(field::WIDEST) <= get(field::HORIZON)
@@ -457,6 +450,29 @@ const STEADY: f64 = 0.05;
 fn difference(after: &Row, before: &Row) -> [DVec3; 2] {
     let change = |index: usize| f64::from(after.0[index] - before.0[index]);
     [DVec3::new(change(0), change(1), change(2)), DVec3::new(change(3), change(4), change(5))]
+}
+
+/// What rests on something and moves no faster than [`CAPTURED`] rest thresholds loses this share of its speed in a second,
+/// fading out towards that speed. Rolling has no friction of its own: without it a ball would roll about a pile for ever at a
+/// speed that gravity and the substep hardly tell from rest.
+const RESISTANCE: f64 = 2.0;
+const CAPTURED: f64 = 4.0;
+
+/// A body rests on something if contacts push it by more than this share of what gravity does.
+const SUPPORTED: f64 = 0.5;
+
+/// Rest capture: takes a little of what a supported body has near the rest threshold. Vanishes without gravity.
+fn capture(bodies: &Bodies, row: usize, change: &mut [DVec3; 2], law: RestLaw) {
+    let (state, constants) = (&bodies.states[row], &bodies.constants[row]);
+    let (velocity, momentum) = (state.velocity + change[0], state.angular_momentum + change[1]);
+    let spin = constants.inverse_inertia(state.rotation) * momentum;
+    let speed = velocity.length().max(spin.length() * bodies.grains[row]);
+    let slowness = 1.0 - speed / (CAPTURED * law.rest_speed());
+    if slowness > 0.0 {
+        let share = RESISTANCE * law.substep * slowness;
+        change[0] -= share * velocity;
+        change[1] -= share * momentum;
+    }
 }
 
 /// Sets a body on its path for a substep in which its velocity and angular momentum get `change`d: a parabola where the forces
