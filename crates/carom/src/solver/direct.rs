@@ -236,13 +236,12 @@ impl Island {
                 let unknown = &self.unknowns[first + number];
                 unknown.wanted - self.velocity(unknown)
             });
-            for point in 0..POINTS {
-                let unknown = &mut self.unknowns[first + point];
-                let presses = unknown.impulse + unknown.mass * lacks[point] > 0.0;
+            for (unknown, lack) in self.unknowns[first..first + POINTS].iter_mut().zip(lacks) {
+                let presses = unknown.impulse + unknown.mass * lack > 0.0;
                 let could = first_time && unknown.wanted > NEVER;
                 unknown.is_active = unknown.mass > 0.0 && (presses || could);
                 if unknown.is_active {
-                    residual = residual.max(lacks[point].abs());
+                    residual = residual.max(lack.abs());
                 }
             }
             let (friction, twist) = self.limits(contact);
