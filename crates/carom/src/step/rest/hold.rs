@@ -132,8 +132,8 @@ fn difference(after: &Row, before: &Row) -> [DVec3; 2] {
 /// What rests on something and moves no faster than [`CAPTURED`] rest thresholds loses this share of its speed in a second,
 /// fading out towards that speed. Rolling has no friction of its own: without it a ball would roll about a pile for ever at a
 /// speed that gravity and the substep hardly tell from rest.
-const RESISTANCE: f64 = 2.0;
-const CAPTURED: f64 = 4.0;
+const RESISTANCE: f64 = 1.0;
+const CAPTURED: f64 = 8.0;
 
 /// A body rests on something if contacts push it by more than this share of what gravity does.
 const SUPPORTED: f64 = 0.5;
