@@ -112,7 +112,7 @@ impl<'a> Events<'a> {
         let mut index = 0;
         while index < self.pairs.len() {
             let pair = &self.pairs[index];
-            let is_quiet = pair.rests && self.rest.is_closed(pair, self.law);
+            let is_quiet = pair.rests && self.rest.is_closed(pair);
             if pair.now.asked_until < span.until && !pair.sensor && !is_quiet {
                 self.ask(index, span);
             }

@@ -1,7 +1,9 @@
 //! Holds what rests to the graph of its contacts, step after step. For tests; slow.
 
-use super::*;
+use super::Rest;
 use crate::World;
+use crate::bodies::{Bodies, WORLD_ROW};
+use crate::step::pairs::Pairs;
 
 impl Rest {
     /// Panics unless pairs, rows and graph know of the same contacts.
