@@ -103,7 +103,7 @@ fn a_solve_leaves_what_it_does_not_concern() {
     assert_eq!(velocities, [Row::ZERO, row, row]);
     // A contact none of whose points can press.
     graph.insert([0, 2], [false, true], &lane);
-    graph.measure(&vec![Row::ZERO; 3]);
+    graph.measure(&[Row::ZERO; 3]);
     graph.solve(&mut velocities, effort, mobility);
     assert_eq!(velocities, [Row::ZERO, row, row]);
 }

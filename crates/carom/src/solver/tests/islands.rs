@@ -190,7 +190,7 @@ fn a_box_that_slides_across_a_slope_is_braked_against_its_slip() {
     let mut random = Random(51);
     for _ in 0..100 {
         let speed = random.range(0.0, 3.0) * GAIN;
-        let heading = random.range(0.0, 6.28);
+        let heading = random.range(0.0, std::f64::consts::TAU);
         let velocity = DVec3::new(speed * heading.cos(), 0.0, speed * heading.sin());
         let dynamic = random.range(0.05, 0.3);
         check(&slope(random.range(0.3, 0.8), [random.range(1.0, 1.5) * dynamic, dynamic], velocity), 2000);
