@@ -177,6 +177,38 @@ pub(crate) fn begin<L: Lanes>(bundle: &mut Bundle, velocities: &mut [Row], [marg
     }
 }
 
+/// The work (J) that the impulses of each lane do on bodies that get from the velocities `before` to those `after`.
+#[inline(always)]
+pub(crate) fn work<L: Lanes>(bundle: &Bundle, before: &[Row], after: &[Row]) -> Line {
+    let mut work = Line::ZERO;
+    for part in 0..LANES / L::WIDTH {
+        let frame = Frame::<L>::load(bundle, part);
+        let mean = |indices: &[u32]| {
+            let (before, after) = (L::gather(before, indices), L::gather(after, indices));
+            let (linear, angular) = (linear(&before) + linear(&after), angular(&before) + angular(&after));
+            (frame.inward(linear).scaled(L::splat(0.5)), frame.inward(angular).scaled(L::splat(0.5)))
+        };
+        let (velocity_a, spin_a) = mean(indices(&bundle.a, part, L::WIDTH));
+        let (velocity_b, spin_b) = mean(indices(&bundle.b, part, L::WIDTH));
+        let at = |arm_a: usize, arm_b: usize| {
+            let turning =
+                spin_b.cross(vector(bundle, arm_b, part)) - spin_a.cross(vector(bundle, arm_a, part));
+            velocity_b - velocity_a + turning
+        };
+        let slip = at(field::FRICTION_ARM_A, field::FRICTION_ARM_B);
+        let mut sum = line::<L>(bundle, field::FRICTION, part) * slip.x
+            + line::<L>(bundle, field::FRICTION + 1, part) * slip.y
+            + line::<L>(bundle, field::TWIST, part) * (spin_b.z - spin_a.z);
+        for point in 0..bundle.points {
+            let of = |line: usize| field::of_point(point, line);
+            let parting = at(of(field::ARM_A), of(field::ARM_B)).z;
+            sum = sum + line::<L>(bundle, of(field::IMPULSE), part) * parting;
+        }
+        sum.store(&mut work, part);
+    }
+    work
+}
+
 /// Adds `changes` to the impulses, whether or not contacts can exert them: the next sweep sees to that.
 #[inline(always)]
 pub(crate) fn nudge<L: Lanes>(bundle: &mut Bundle, velocities: &mut [Row], changes: &[Line; field::ROWS]) {

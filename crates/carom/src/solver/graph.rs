@@ -256,10 +256,47 @@ impl Graph {
         self.each_bundle(|bundle| contact::measure::<Wide>(bundle, drifts));
     }
 
-    /// Lets the impulses of the last substep act again.
+    /// Lets the impulses of the last substep act again, where they are a good start.
     pub fn begin(&mut self, velocities: &mut [Row], margin: f64, substep: f64) {
         let limits = [margin as f32, (1.0 / substep) as f32];
+        let before = velocities.to_vec();
         self.each_bundle(|bundle| contact::begin::<Wide>(bundle, velocities, limits));
+        self.find_islands(velocities.len());
+        self.refuse_gains(&before, velocities);
+    }
+
+    /// Takes back the impulses that act again in those islands in which they do work: all forces of contacts together never do, so that
+    /// these would be a worse start than none.
+    fn refuse_gains(&mut self, before: &[Row], velocities: &mut [Row]) {
+        let mut gains = vec![0.0; self.islands.sizes.len()];
+        for bundle in self.colors.iter().flat_map(|color| &color.bundles) {
+            for (lane, work) in contact::work::<Wide>(bundle, before, velocities).0.into_iter().enumerate() {
+                if let Some(island) = self.island_of(bundle, lane) {
+                    gains[island] += f64::from(work);
+                }
+            }
+        }
+        if gains.iter().all(|&gain| gain <= 0.0) {
+            return;
+        }
+        let refused = |islands: &Islands, row: u32| {
+            islands
+                .of_row
+                .get(row as usize)
+                .is_some_and(|&island| island != NONE && gains[island as usize] > 0.0)
+        };
+        for (row, velocity) in velocities.iter_mut().enumerate() {
+            if refused(&self.islands, row as u32) {
+                *velocity = before[row];
+            }
+        }
+        for bundle in self.colors.iter_mut().flat_map(|color| &mut color.bundles) {
+            for lane in 0..LANES {
+                if refused(&self.islands, bundle.a[lane]) || refused(&self.islands, bundle.b[lane]) {
+                    field::IMPULSES.into_iter().for_each(|line| bundle.lines[line].0[lane] = 0.0);
+                }
+            }
+        }
     }
 
     /// Sweeps until velocities agree, island by island. `mobility` tells of a row how impulses move it, if they do.
@@ -272,7 +309,7 @@ impl Graph {
         for _ in 0..effort.sweeps {
             self.each_bundle(|bundle| contact::sweep::<Wide>(bundle, velocities));
         }
-        self.find_islands(velocities.len(), |row| mobility(row as u32).is_some());
+        self.find_islands(velocities.len());
         let quiet = self.quiet_islands(velocities, effort);
         self.solve_small(velocities, (effort, &quiet), &mobility);
         let sizes = self.islands.sizes.iter().zip(&quiet);
@@ -444,10 +481,16 @@ impl Graph {
         open
     }
 
-    fn find_islands(&mut self, rows: usize, is_movable: impl Fn(usize) -> bool) {
+    fn find_islands(&mut self, rows: usize) {
         if !self.islands.is_stale {
             return;
         }
+        let mut movable = Color::default();
+        for color in &self.colors {
+            movable.taken.resize(movable.taken.len().max(color.taken.len()), 0);
+            movable.taken.iter_mut().zip(&color.taken).for_each(|(all, word)| *all |= word);
+        }
+        let is_movable = |row: usize| movable.is_taken(row as u32);
         let mut root: Vec<u32> = (0..rows as u32).collect();
         fn find(root: &mut [u32], mut row: u32) -> u32 {
             while root[row as usize] != row {
