@@ -39,7 +39,7 @@ impl Rest {
         let limit = if span.from == 0.0 { DRIFT } else { DRIFT_WITHIN };
         self.renew_moved(bodies, pairs, &held, (law, span, limit));
         self.graph.measure(&self.rows.drifts);
-        self.let_part(pairs, law);
+        self.let_part(pairs);
         self.push(bodies, law, span)
     }
 
