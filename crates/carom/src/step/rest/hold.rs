@@ -82,7 +82,8 @@ impl Rest {
             let [linear, angular] = difference(&after, &before);
             let inertia = bodies.constants[row].inertia(bodies.states[row].rotation);
             let mut change = [gain[0] + linear, turn + inertia * angular];
-            if linear.length() > SUPPORTED * gain[0].length() {
+            let pull = gain[0].length();
+            if linear.length() > SUPPORTED * pull && change[0].length() < DRIVEN * pull {
                 capture(bodies, row, &mut change, law);
             }
             let sudden = difference(&after, &warm);
@@ -129,14 +130,16 @@ fn difference(after: &Row, before: &Row) -> [DVec3; 2] {
     [DVec3::new(change(0), change(1), change(2)), DVec3::new(change(3), change(4), change(5))]
 }
 
-/// What rests on something and moves no faster than [`CAPTURED`] rest thresholds loses this share of its speed in a second,
-/// fading out towards that speed. Rolling has no friction of its own: without it a ball would roll about a pile for ever at a
-/// speed that gravity and the substep hardly tell from rest.
-const RESISTANCE: f64 = 1.0;
+/// What rests on something, is driven by nothing and moves no faster than [`CAPTURED`] rest thresholds loses this share of its
+/// speed in a second, fading out towards that speed. Rolling has no friction of its own: without it a ball would roll about
+/// a pile for ever at a speed that gravity and the substep hardly tell from rest.
+const RESISTANCE: f64 = 2.0;
 const CAPTURED: f64 = 8.0;
 
-/// A body rests on something if contacts push it by more than this share of what gravity does.
+/// A body rests on something if contacts push it by more than this share of what gravity does, and is driven if its velocity
+/// changes by more than the second.
 const SUPPORTED: f64 = 0.5;
+const DRIVEN: f64 = 0.02;
 
 /// Rest capture: takes a little of what a supported body has near the rest threshold. Vanishes without gravity.
 fn capture(bodies: &Bodies, row: usize, change: &mut [DVec3; 2], law: RestLaw) {
