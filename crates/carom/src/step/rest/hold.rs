@@ -146,13 +146,12 @@ fn capture(bodies: &Bodies, row: usize, change: &mut [DVec3; 2], law: RestLaw) {
     let (state, constants) = (&bodies.states[row], &bodies.constants[row]);
     let (velocity, momentum) = (state.velocity + change[0], state.angular_momentum + change[1]);
     let spin = constants.inverse_inertia(state.rotation) * momentum;
-    let speed = velocity.length().max(spin.length() * bodies.grains[row]);
-    let slowness = 1.0 - speed / (CAPTURED * law.rest_speed());
-    if slowness > 0.0 {
-        let share = RESISTANCE * law.substep * slowness;
-        change[0] -= share * velocity;
-        change[1] -= share * momentum;
-    }
+    let share = |speed: f64| {
+        let slowness = 1.0 - speed / (CAPTURED * law.rest_speed());
+        RESISTANCE * law.substep * slowness.max(0.0)
+    };
+    change[0] -= share(velocity.length()) * velocity;
+    change[1] -= share(spin.length() * bodies.grains[row]) * momentum;
 }
 
 /// Sets a body on its path for a substep in which its velocity and angular momentum get `change`d: a parabola where the forces
