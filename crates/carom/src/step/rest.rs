@@ -123,14 +123,14 @@ impl Rest {
         }
     }
 
-    /// Lets go of pairs whose every point is further apart than the contact margin.
-    fn let_part(&mut self, pairs: &mut Pairs, law: RestLaw) {
-        let margin = law.contact_margin() as f32;
+    /// Lets go of pairs whose every point has left the reach of contacts.
+    fn let_part(&mut self, pairs: &mut Pairs) {
         let resting = std::mem::take(&mut self.resting);
         for &index in &resting {
-            let gap = |support: &Support| self.graph.get(support.contact, field::GAP);
+            let get = |support: &Support, field: usize| self.graph.get(support.contact, field);
+            let has_left = |support: &Support| get(support, field::GAP) > get(support, field::HORIZON);
             let pair = &mut pairs[index];
-            if pair.supports.iter().all(|support| gap(support) > margin) {
+            if pair.supports.iter().all(has_left) {
                 self.drop_contacts(pair);
                 pair.rests = false;
                 pair.supports.clear();

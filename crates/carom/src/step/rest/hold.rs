@@ -39,7 +39,7 @@ impl Rest {
         let limit = if span.from == 0.0 { DRIFT } else { DRIFT_WITHIN };
         self.renew_moved(bodies, pairs, &held, (law, span, limit));
         self.graph.measure(&self.rows.drifts);
-        self.let_part(pairs, law);
+        self.let_part(pairs);
         self.push(bodies, law, span)
     }
 
@@ -82,7 +82,8 @@ impl Rest {
             let [linear, angular] = difference(&after, &before);
             let inertia = bodies.constants[row].inertia(bodies.states[row].rotation);
             let mut change = [gain[0] + linear, turn + inertia * angular];
-            if linear.length() > SUPPORTED * gain[0].length() {
+            let pull = gain[0].length();
+            if linear.length() > SUPPORTED * pull && change[0].length() < DRIVEN * pull {
                 capture(bodies, row, &mut change, law);
             }
             let sudden = difference(&after, &warm);
@@ -129,27 +130,28 @@ fn difference(after: &Row, before: &Row) -> [DVec3; 2] {
     [DVec3::new(change(0), change(1), change(2)), DVec3::new(change(3), change(4), change(5))]
 }
 
-/// What rests on something and moves no faster than [`CAPTURED`] rest thresholds loses this share of its speed in a second,
-/// fading out towards that speed. Rolling has no friction of its own: without it a ball would roll about a pile for ever at a
-/// speed that gravity and the substep hardly tell from rest.
-const RESISTANCE: f64 = 1.0;
+/// What rests on something, is driven by nothing and moves no faster than [`CAPTURED`] rest thresholds loses this share of its
+/// speed in a second, fading out towards that speed. Rolling has no friction of its own: without it a ball would roll about
+/// a pile for ever at a speed that gravity and the substep hardly tell from rest.
+const RESISTANCE: f64 = 2.0;
 const CAPTURED: f64 = 8.0;
 
-/// A body rests on something if contacts push it by more than this share of what gravity does.
+/// A body rests on something if contacts push it by more than this share of what gravity does, and is driven if its velocity
+/// changes by more than the second.
 const SUPPORTED: f64 = 0.5;
+const DRIVEN: f64 = 0.02;
 
 /// Rest capture: takes a little of what a supported body has near the rest threshold. Vanishes without gravity.
 fn capture(bodies: &Bodies, row: usize, change: &mut [DVec3; 2], law: RestLaw) {
     let (state, constants) = (&bodies.states[row], &bodies.constants[row]);
     let (velocity, momentum) = (state.velocity + change[0], state.angular_momentum + change[1]);
     let spin = constants.inverse_inertia(state.rotation) * momentum;
-    let speed = velocity.length().max(spin.length() * bodies.grains[row]);
-    let slowness = 1.0 - speed / (CAPTURED * law.rest_speed());
-    if slowness > 0.0 {
-        let share = RESISTANCE * law.substep * slowness;
-        change[0] -= share * velocity;
-        change[1] -= share * momentum;
-    }
+    let share = |speed: f64| {
+        let slowness = 1.0 - speed / (CAPTURED * law.rest_speed());
+        RESISTANCE * law.substep * slowness.max(0.0)
+    };
+    change[0] -= share(velocity.length()) * velocity;
+    change[1] -= share(spin.length() * bodies.grains[row]) * momentum;
 }
 
 /// Sets a body on its path for a substep in which its velocity and angular momentum get `change`d: a parabola where the forces
