@@ -102,9 +102,16 @@ fn a_tower_that_hangs_over_just_within_the_limit_stands() {
 }
 
 #[test]
+#[ignore = "at 1.57 s, as the top box tips, a step throws two others apart with 500 m/s: 0.08 MJ become 253 MJ"]
 fn a_tower_that_hangs_over_beyond_the_limit_falls() {
     let (mut world, boxes) = overhanging_tower(1.01);
-    run(&mut world, 5.0);
+    let start = world.energy();
+    for _ in 0..steps(5.0) {
+        world.step(STEP);
+        let now = world.energy();
+        let gain = now.kinetic + now.potential - start.kinetic - start.potential;
+        assert!(gain < 0.01 * start.potential, "{gain} J more than at the start, at {} s", world.time());
+    }
     let (top, place) = boxes[3];
     assert!(world[top].position().y < place.y - 1.0, "{}", world[top].position());
 }

@@ -85,6 +85,23 @@ fn a_box_over_an_edge_falls_only_with_its_centre_beyond_it() {
 }
 
 #[test]
+#[ignore = "a box that tips over an edge sinks 1 mm into it and strikes it again and again: 5 % of its energy are gone at 28°"]
+fn a_box_that_tips_over_an_edge_keeps_its_energy() {
+    let mut world = World::new();
+    let table = Collider::new(Shape::cuboid(10.0, 2.0, 10.0)).at(-5.0, -1.0, 0.0);
+    world.add(Body::fixed().collider(table).friction(2.0));
+    let id = world.add(cube().at(0.05, 0.5, 0.0).friction(2.0));
+    let start = world.energy().potential;
+    let tilt = |world: &World| (world[id].rotation() * Vec3::Y).angle_between(Vec3::Y).to_degrees();
+    while tilt(&world) < 28.0 {
+        world.step(STEP);
+        let edge = world[id].position() + world[id].rotation().as_dquat() * DVec3::new(-0.05, -0.5, 0.0);
+        assert!(edge.length() < 1e-3, "{edge} at {} s", world.time());
+    }
+    judge_share("kinetic energy, J", world.energy().kinetic, start - world.energy().potential, 0.01);
+}
+
+#[test]
 fn two_balls_carry_a_third_by_friction_alone() {
     // At each of the contacts the force is 15° off the normal: tan 15° = 0.268.
     let radius = 0.5;
