@@ -206,7 +206,7 @@ fn pile() -> Scene {
     Scene {
         file: "pile",
         name: "Five hundred balls, boxes, capsules, cylinders, cones and wedges fall into a pit",
-        materials: json!({ "stone": { "friction": 0.6 }, "wood": { "friction": 0.5, "restitution": 0.1 } }),
+        materials: json!({ "stone": { "friction": 0.6 }, "wood": { "friction": 0.5 } }),
         bodies,
     }
 }
