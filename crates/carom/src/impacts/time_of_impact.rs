@@ -9,6 +9,7 @@ use crate::collide::{self, ContactPoint, Manifold};
 use crate::flight::fly_center;
 use crate::impulse::Velocity;
 use crate::math::{DVec3, Pose};
+use crate::report::Feature;
 use crate::shape::Shape;
 use crate::step::motion::{free_influence, state_at};
 
@@ -26,6 +27,11 @@ impl RestLaw {
     /// Gap up to which a resting pair still counts as touching, m: what gravity covers in one substep.
     pub fn contact_margin(&self) -> f64 {
         0.5 * self.gravity.length() * self.substep * self.substep + 1e-6
+    }
+
+    /// The rest threshold of what gravity alone presses against something that does not move, m/s.
+    pub fn rest_speed(&self) -> f64 {
+        0.5 * self.gravity.length() * self.substep
     }
 
     /// Speed (m/s) with which a resting pair may close until it settles again: one that covers the contact margin in a
@@ -155,31 +161,51 @@ impl<'a> Approach<'a> {
     pub fn rests(&self, time: f64) -> bool {
         let mut manifolds = Vec::new();
         self.manifolds(time, self.law.contact_margin(), &mut manifolds);
+        let motions = if manifolds.is_empty() { return false } else { self.motions(time) };
         let mut is_near = false;
         for manifold in &manifolds {
             let rest_speed = self.rest_speed(manifold.normal);
             let pressing = 2.0 * rest_speed / self.law.substep;
             for contact in manifold.points() {
-                let closing = -self.normal_velocity(contact.point, manifold.normal, time);
+                let closing = -normal_velocity(&motions, contact.point, manifold.normal);
                 let gap = contact.separation.max(0.0);
                 let speed_at_touch = (closing * closing + 2.0 * pressing * gap).sqrt();
                 if closing > rest_speed || (gap > self.tolerance && speed_at_touch > rest_speed) {
                     return false;
                 }
-                is_near |= closing >= -rest_speed;
+                is_near |= closing >= -rest_speed
+                    && !(closing <= self.noise && self.parts(contact, manifold.normal));
             }
         }
         is_near
     }
 
-    fn normal_velocity(&self, point: DVec3, normal: DVec3, time: f64) -> f64 {
-        let velocity = |collider: &ColliderRow| {
+    /// Whether a point that neither closes nor opens is about to open: a corner swings away faster than the two are pressed
+    /// together.
+    pub fn parts(&self, contact: &ContactPoint, normal: DVec3) -> bool {
+        let acceleration = |collider: &ColliderRow, feature: Feature| {
+            let row = collider.row;
+            let state = &self.bodies.states[row];
+            let spin = self.bodies.constants[row].angular_velocity(state);
+            let swing = match feature {
+                Feature::Vertex(_) if row != WORLD_ROW => {
+                    spin.cross(spin.cross(contact.point - state.position))
+                }
+                _ => DVec3::ZERO,
+            };
+            swing + free_influence(self.bodies, row, self.law.gravity).acceleration
+        };
+        let apart = acceleration(self.b, contact.feature_b) - acceleration(self.a, contact.feature_a);
+        apart.dot(normal) > 0.0
+    }
+
+    /// Both bodies' centres and velocities at `time`.
+    fn motions(&self, time: f64) -> [(DVec3, Velocity); 2] {
+        [self.a, self.b].map(|collider| {
             let state = state_at(self.bodies, collider.row, time);
             let angular = self.bodies.constants[collider.row].angular_velocity(&state);
-            let center = if collider.row == WORLD_ROW { point } else { state.position };
-            Velocity { linear: state.velocity, angular }.at(point - center)
-        };
-        (velocity(self.b) - velocity(self.a)).dot(normal)
+            (state.position, Velocity { linear: state.velocity, angular })
+        })
     }
 
     /// The touch that closes fastest at `time`, if any closes faster than rounding (or, for a pair that `rests`, than the
@@ -196,6 +222,7 @@ impl<'a> Approach<'a> {
     fn fastest_touch(&self, time: f64, rests: bool, share_of_limit: f64) -> Option<Touch> {
         let mut manifolds = Vec::new();
         self.manifolds(time, self.tolerance, &mut manifolds);
+        let motions = if manifolds.is_empty() { return None } else { self.motions(time) };
         let mut fastest: Option<Touch> = None;
         for manifold in &manifolds {
             let rest_speed = self.rest_speed(manifold.normal);
@@ -203,7 +230,7 @@ impl<'a> Approach<'a> {
                 share_of_limit * if rests { rest_speed.max(self.law.drift_speed()) } else { self.noise };
             for contact in manifold.points() {
                 let point = contact.point;
-                let closing_speed = self.normal_velocity(point, manifold.normal, time);
+                let closing_speed = normal_velocity(&motions, point, manifold.normal);
                 if closing_speed < fastest.map_or(-limit, |touch| touch.closing_speed) {
                     let normal = manifold.normal;
                     fastest = Some(Touch { point, normal, contact: *contact, closing_speed, rest_speed });
@@ -346,4 +373,10 @@ impl<'a> Approach<'a> {
         }
         closing
     }
+}
+
+/// How fast `b` leaves `a` at a point, along the normal, m/s. The world's row does not move, wherever its centre may be.
+fn normal_velocity(motions: &[(DVec3, Velocity); 2], point: DVec3, normal: DVec3) -> f64 {
+    let [a, b] = motions.map(|(center, velocity)| velocity.at(point - center));
+    (b - a).dot(normal)
 }

@@ -10,7 +10,7 @@
 //!
 //! where each row of `D` is [`STIFFNESS`] times its effective mass: two or three rounds leave nothing. Then impulses that pull are
 //! set to zero, those outside Coulomb's cone are put back on it, and the search goes on with the rows that press or stick
-//! now (an active-set method as in Silcowitz, Niebe and Erleben 2010, *subspace minimization*).
+//! now, after some sweeps (as in Silcowitz, Niebe and Erleben 2009, *Projected Gauss–Seidel subspace minimization*).
 //!
 //! The matrix has a block of six for each body and one for each pair in contact; it is factored in an order of least degree,
 //! without pivots, as it is positive definite.
@@ -20,7 +20,13 @@ use super::lanes::Row;
 use crate::math::{DMat3, DVec3};
 
 /// An island may have so many bodies.
-pub(crate) const BODIES: usize = 64;
+pub(crate) const BODIES: usize = 256;
+
+/// Bodies of an island, a bit each.
+type Set = [u64; BODIES / 64];
+
+/// Blocks multiplied, about, after which no further set is tried.
+const WORK: usize = 1_000_000;
 
 /// A point that is out of reach asks for less than this, m/s.
 const NEVER: f64 = -1e20;
@@ -31,6 +37,9 @@ const STIFFNESS: f64 = 1e5;
 /// Rounds of multipliers for one set of rows, and sets of rows that are tried.
 const MULTIPLIERS: usize = 3;
 const SETS: usize = 12;
+
+/// Sweeps between two sets.
+const SWEEPS: usize = 8;
 
 type Vector = [f64; 6];
 type Block = [[f64; 6]; 6];
@@ -172,22 +181,29 @@ impl Island {
         }
     }
 
-    /// Solves until no unknown's velocity is further than `agreement` (m/s) from what it asks for; whether it got there.
-    pub fn solve(&mut self, agreement: f64) -> bool {
+    /// Solves until no unknown's velocity is further than `exactness` (m/s) from what it asks for; returns how far it got.
+    pub fn solve(&mut self, exactness: f64) -> f64 {
         let mut matrix = Matrix::new(self.movers.len());
+        let mut work = 0;
         for set in 0..SETS {
+            if work > WORK {
+                break;
+            }
             let residual = self.activate(set == 0);
-            if set > 0 && residual <= agreement {
-                return true;
+            if set > 0 && residual <= exactness {
+                return residual;
             }
             self.assemble(&mut matrix);
-            matrix.factor();
+            work += matrix.factor();
             for _ in 0..MULTIPLIERS {
                 self.step(&matrix);
             }
             self.project();
+            for _ in 0..SWEEPS {
+                self.sweep();
+            }
         }
-        self.activate(false) <= agreement
+        self.activate(false)
     }
 
     /// The velocity of a contact along an unknown.
@@ -220,13 +236,12 @@ impl Island {
                 let unknown = &self.unknowns[first + number];
                 unknown.wanted - self.velocity(unknown)
             });
-            for point in 0..POINTS {
-                let unknown = &mut self.unknowns[first + point];
-                let presses = unknown.impulse + unknown.mass * lacks[point] > 0.0;
+            for (unknown, lack) in self.unknowns[first..first + POINTS].iter_mut().zip(lacks) {
+                let presses = unknown.impulse + unknown.mass * lack > 0.0;
                 let could = first_time && unknown.wanted > NEVER;
                 unknown.is_active = unknown.mass > 0.0 && (presses || could);
                 if unknown.is_active {
-                    residual = residual.max(lacks[point].abs());
+                    residual = residual.max(lack.abs());
                 }
             }
             let (friction, twist) = self.limits(contact);
@@ -299,6 +314,22 @@ impl Island {
         }
     }
 
+    /// One sweep of Gauss–Seidel, which tells the rows that press and stick from those that do not.
+    fn sweep(&mut self) {
+        for contact in 0..self.contacts.len() {
+            let first = contact * field::ROWS;
+            for index in first..first + field::ROWS {
+                let unknown = &self.unknowns[index];
+                let lack = unknown.wanted - self.velocity(unknown);
+                self.set(index, unknown.impulse + unknown.mass * lack);
+                if index < first + POINTS {
+                    self.set(index, self.unknowns[index].impulse.max(0.0));
+                }
+            }
+            self.project_friction(contact);
+        }
+    }
+
     /// Puts impulses back to what contacts can exert.
     fn project(&mut self) {
         for contact in 0..self.contacts.len() {
@@ -306,18 +337,23 @@ impl Island {
             for point in first..first + POINTS {
                 self.set(point, self.unknowns[point].impulse.max(0.0));
             }
-            let (friction, twist) = self.limits(contact);
-            let (x, y) = (self.unknowns[first + POINTS].impulse, self.unknowns[first + POINTS + 1].impulse);
-            let size = (x * x + y * y).sqrt();
-            if size > friction[0] {
-                let share = (friction[1] / size).min(1.0);
-                self.set(first + POINTS, share * x);
-                self.set(first + POINTS + 1, share * y);
-            }
-            let turn = self.unknowns[first + POINTS + 2].impulse;
-            if turn.abs() > twist[0] {
-                self.set(first + POINTS + 2, turn.clamp(-twist[1], twist[1]));
-            }
+            self.project_friction(contact);
+        }
+    }
+
+    fn project_friction(&mut self, contact: usize) {
+        let first = contact * field::ROWS;
+        let (friction, twist) = self.limits(contact);
+        let (x, y) = (self.unknowns[first + POINTS].impulse, self.unknowns[first + POINTS + 1].impulse);
+        let size = (x * x + y * y).sqrt();
+        if size > friction[0] {
+            let share = (friction[1] / size).min(1.0);
+            self.set(first + POINTS, share * x);
+            self.set(first + POINTS + 1, share * y);
+        }
+        let turn = self.unknowns[first + POINTS + 2].impulse;
+        if turn.abs() > twist[0] {
+            self.set(first + POINTS + 2, turn.clamp(-twist[1], twist[1]));
         }
     }
 }
@@ -331,7 +367,7 @@ struct Matrix {
     /// Bodies in the order in which they are eliminated, and the neighbours that each then still has.
     order: Vec<usize>,
     later: Vec<Vec<usize>>,
-    neighbors: Vec<u64>,
+    neighbors: Vec<Set>,
 }
 
 const ABSENT: u32 = u32::MAX;
@@ -344,13 +380,13 @@ impl Matrix {
             blocks: Vec::new(),
             order: Vec::new(),
             later: Vec::new(),
-            neighbors: vec![0; count],
+            neighbors: vec![[0; BODIES / 64]; count],
         }
     }
 
     fn clear(&mut self) {
         self.places.fill(ABSENT);
-        self.neighbors.fill(0);
+        self.neighbors.fill([0; BODIES / 64]);
         self.blocks.clear();
         self.order.clear();
         self.later.clear();
@@ -363,7 +399,7 @@ impl Matrix {
             *place = self.blocks.len() as u32;
             self.blocks.push([[0.0; 6]; 6]);
             if row != column {
-                self.neighbors[row] |= 1 << column;
+                self.neighbors[row][column / 64] |= 1 << (column % 64);
             }
         }
         let place = *place as usize;
@@ -403,13 +439,23 @@ impl Matrix {
     }
 
     /// Factors in place: the block of a body becomes `L`, those of its later neighbours `B·L⁻ᵀ`.
-    fn factor(&mut self) {
-        let mut left: u64 = if self.count == 64 { u64::MAX } else { (1 << self.count) - 1 };
-        while left != 0 {
-            let degree = |body: &usize| (self.neighbors[*body] & left).count_ones();
-            let Some(pivot) = bits(left).min_by_key(degree) else { return };
-            left &= !(1 << pivot);
-            let later: Vec<usize> = bits(self.neighbors[pivot] & left).collect();
+    ///
+    /// Returns about twice the number of blocks that were multiplied.
+    fn factor(&mut self) -> usize {
+        let mut work = 0;
+        let mut left: Set = std::array::from_fn(|word| {
+            let count = self.count.saturating_sub(64 * word).min(64);
+            if count == 64 { u64::MAX } else { (1 << count) - 1 }
+        });
+        let both = |one: &Set, other: &Set| -> Set { std::array::from_fn(|word| one[word] & other[word]) };
+        let degree = |neighbors: &[Set], left: &Set, body: usize| -> u32 {
+            both(&neighbors[body], left).iter().map(|word| word.count_ones()).sum()
+        };
+        let mut degrees: Vec<u32> =
+            (0..self.count).map(|body| degree(&self.neighbors, &left, body)).collect();
+        while let Some(pivot) = bits(left).min_by_key(|&body| degrees[body]) {
+            left[pivot / 64] &= !(1 << (pivot % 64));
+            let later: Vec<usize> = bits(both(&self.neighbors[pivot], &left)).collect();
             cholesky(self.block(pivot, pivot));
             let factor = *self.at(pivot, pivot);
             for &row in &later {
@@ -431,9 +477,12 @@ impl Matrix {
                     }
                 }
             }
+            later.iter().for_each(|&body| degrees[body] = degree(&self.neighbors, &left, body));
+            work += later.len() * later.len();
             self.order.push(pivot);
             self.later.push(later);
         }
+        work
     }
 
     /// Replaces `values` by the solution.
@@ -459,12 +508,14 @@ impl Matrix {
 }
 
 /// The bits that are set, from the lowest.
-fn bits(mut mask: u64) -> impl Iterator<Item = usize> {
-    std::iter::from_fn(move || {
-        (mask != 0).then(|| {
-            let bit = mask.trailing_zeros() as usize;
-            mask &= mask - 1;
-            bit
+fn bits(set: Set) -> impl Iterator<Item = usize> {
+    set.into_iter().enumerate().flat_map(|(word, mut mask)| {
+        std::iter::from_fn(move || {
+            (mask != 0).then(|| {
+                let bit = mask.trailing_zeros() as usize;
+                mask &= mask - 1;
+                64 * word + bit
+            })
         })
     })
 }

@@ -95,6 +95,8 @@ struct Islands {
     /// Contacts and bodies in each island.
     sizes: Vec<u32>,
     bodies: Vec<usize>,
+    /// For how many more substeps each island is not worth a direct solve: the last one led nowhere.
+    pauses: Vec<u32>,
 }
 
 /// The box around the velocities of an island's bodies.
@@ -274,9 +276,16 @@ impl Graph {
         let quiet = self.quiet_islands(velocities, effort);
         self.solve_small(velocities, (effort, &quiet), &mobility);
         let sizes = self.islands.sizes.iter().zip(&quiet);
-        let most: Vec<u32> = sizes
-            .map(|(&size, &is_quiet)| if is_quiet { effort.budget / size.max(1) } else { effort.in_motion })
-            .collect();
+        let most: Vec<u32> =
+            sizes
+                .map(|(&size, &is_quiet)| {
+                    if is_quiet {
+                        effort.in_motion.max(effort.budget / size.max(1))
+                    } else {
+                        effort.in_motion
+                    }
+                })
+                .collect();
         self.sweep_on(velocities, effort, &most);
     }
 
@@ -342,22 +351,28 @@ impl Graph {
                 }
             }
         }
-        for (members, _) in members.iter().zip(is_open).filter(|(_, is_open)| *is_open) {
+        for (island, members) in members.iter().enumerate().filter(|(island, _)| is_open[*island]) {
+            if self.islands.pauses[island] > 0 {
+                self.islands.pauses[island] -= 1;
+                continue;
+            }
             let mut small = direct::Island::default();
             for &(color, lane) in members {
                 let bundle = &self.colors[color].bundles[lane / LANES];
                 small.add(bundle, lane % LANES, velocities, &mobility);
             }
-            let agrees = small.solve(f64::from(effort.exactness));
+            let residual = small.solve(f64::from(effort.exactness)) as f32;
+            self.islands.pauses[island] = if residual <= effort.exactness { 0 } else { PAUSE };
+            if residual > effort.agreement {
+                continue;
+            }
             small.write(velocities);
             for (number, &(color, lane)) in members.iter().enumerate() {
                 let bundle = &mut self.colors[color].bundles[lane / LANES];
                 for (line, impulse) in field::IMPULSES.into_iter().zip(small.impulses(number)) {
                     bundle.lines[line].0[lane % LANES] = impulse;
                 }
-                if agrees {
-                    bundle.lines[field::RESIDUAL].0[lane % LANES] = 0.0;
-                }
+                bundle.lines[field::RESIDUAL].0[lane % LANES] = 0.0;
             }
         }
     }
@@ -465,7 +480,8 @@ impl Graph {
         }
         let mut bodies = vec![0; sizes.len()];
         of_row.iter().filter(|&&island| island != NONE).for_each(|&island| bodies[island as usize] += 1);
-        self.islands = Islands { is_stale: false, of_row, sizes, bodies };
+        let pauses = vec![0; sizes.len()];
+        self.islands = Islands { is_stale: false, of_row, sizes, bodies, pauses };
     }
 
     /// Finds displacements that take `share` of every overlap beyond `allowed` (m) away, into rows that hold none yet; false if
@@ -503,6 +519,9 @@ impl Graph {
 
 /// Sweeps between two looks at which islands agree.
 const ROUND: u32 = 4;
+
+/// Substeps to wait before an island that could not be solved directly is tried again.
+const PAUSE: u32 = 16;
 
 /// Sweeps that push overlaps out.
 const PUSH_SWEEPS: usize = 4;

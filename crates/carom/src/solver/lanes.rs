@@ -75,11 +75,7 @@ pub(crate) struct Portable<const N: usize>([f32; N]);
 impl<const N: usize> Portable<N> {
     #[inline(always)]
     fn zip(self, other: Self, with: impl Fn(f32, f32) -> f32) -> Self {
-        let mut result = self.0;
-        for lane in 0..N {
-            result[lane] = with(self.0[lane], other.0[lane]);
-        }
-        Self(result)
+        Self(std::array::from_fn(|lane| with(self.0[lane], other.0[lane])))
     }
 }
 
@@ -137,11 +133,8 @@ impl<const N: usize> Lanes for Portable<N> {
 
     #[inline(always)]
     fn select_greater(left: Self, right: Self, [yes, no]: [Self; 2]) -> Self {
-        let mut result = no.0;
-        for lane in 0..N {
-            result[lane] = if left.0[lane] > right.0[lane] { yes.0[lane] } else { no.0[lane] };
-        }
-        Self(result)
+        let choose = |lane: usize| if left.0[lane] > right.0[lane] { yes.0[lane] } else { no.0[lane] };
+        Self(std::array::from_fn(choose))
     }
 
     #[inline(always)]

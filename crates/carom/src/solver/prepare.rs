@@ -88,9 +88,9 @@ pub(crate) fn lane(
     put_vector(&mut put, field::NORMAL, normal);
     put_vector(&mut put, field::TANGENT, first);
     let inertia = sides.map(|side| frame.tensor(&side.inverse_inertia));
-    for entry in 0..6 {
-        put(field::INVERSE_INERTIA_A + entry, inertia[0][entry]);
-        put(field::INVERSE_INERTIA_B + entry, inertia[1][entry]);
+    for (entry, (a, b)) in inertia[0].into_iter().zip(inertia[1]).enumerate() {
+        put(field::INVERSE_INERTIA_A + entry, a);
+        put(field::INVERSE_INERTIA_B + entry, b);
     }
     let inverse_mass = sides[0].inverse_mass + sides[1].inverse_mass;
     let apart = normal.dot(sides[1].drift.0 - sides[0].drift.0);

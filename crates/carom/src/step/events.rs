@@ -112,7 +112,7 @@ impl<'a> Events<'a> {
         let mut index = 0;
         while index < self.pairs.len() {
             let pair = &self.pairs[index];
-            let is_quiet = pair.rests && self.rest.is_closed(pair, self.law);
+            let is_quiet = pair.rests && self.rest.is_closed(pair);
             if pair.now.asked_until < span.until && !pair.sensor && !is_quiet {
                 self.ask(index, span);
             }
@@ -154,9 +154,12 @@ impl<'a> Events<'a> {
                 return;
             }
             let separation = approach.separation(span.from);
-            let instant = approach.next_touch(span.from, until, false);
-            self.pairs[index].measured(self.bodies, separation, span.from);
-            instant
+            let pair = &mut self.pairs[index];
+            pair.measured(self.bodies, separation, span.from);
+            if pair.least_separation(self.bodies, until) > approach.tolerance() {
+                return;
+            }
+            approach.next_touch(span.from, until, false)
         };
         if let Some(time) = instant {
             let pair = &self.pairs[index];
@@ -188,8 +191,12 @@ impl<'a> Events<'a> {
         if !self.comes_to_rest(index, &touch) {
             self.pairs[index].now.hits += 1;
             let surface = self.pairs[index].surface;
+            let stays = -touch.closing_speed * surface.restitution <= touch.rest_speed;
+            let parts = |approach: Option<Approach>| {
+                approach.is_some_and(|approach| approach.parts(&touch.contact, touch.normal))
+            };
             self.impacts.extend(strike(self.bodies, colliders, &touch, &surface, time));
-            if !rests && -touch.closing_speed * surface.restitution <= touch.rest_speed {
+            if !rests && stays && !parts(Approach::of(self.bodies, colliders, self.law)) {
                 self.rest.take(self.bodies, self.pairs, index, (self.law, span));
             }
             for row in rows {

@@ -11,40 +11,17 @@
 //!
 //! Contacts are hard: they need no overlap to press, so that nothing sinks under a load.
 
-use crate::bodies::{Bodies, WORLD_ROW};
-use crate::collide::Manifold;
-use crate::flight::Influence;
+mod hold;
+mod renew;
+
+use crate::bodies::Bodies;
 use crate::impacts::time_of_impact::{Approach, RestLaw};
-use crate::math::{DMat3, DVec3, rotation_from_vector};
+use crate::math::DVec3;
 use crate::solver::bundle::field;
-use crate::solver::direct::Mobility;
-use crate::solver::graph::{Effort, Graph};
-use crate::solver::lanes::Row;
-use crate::solver::prepare::{Remembered, Side, Terms, lane};
+use crate::solver::graph::Graph;
 use crate::solver::rows::Rows;
-use crate::step::motion::{advance, free_influence, set_pace};
+use crate::step::motion::advance;
 use crate::step::pairs::{Pair, Pairs, Support};
-
-/// Motion of a body, as a share of its smallest collider's reach or in radians, after which its contacts are renewed: at
-/// the start of a step, and within one.
-const DRIFT: f64 = 1e-3;
-const DRIFT_WITHIN: f64 = 2e-2;
-
-/// Velocities agree when a sweep changes them by no more than this share of what gravity does in a substep; those of small
-/// islands, which are solved directly, when nothing is further off than the second.
-const AGREEMENT: f64 = 1e-3;
-const EXACTNESS: f64 = 1e-5;
-const QUIET: f64 = 3.0;
-
-/// Sweeps that every contact gets in a substep, that an island in motion may take, and contacts times sweeps that one about to
-/// rest may.
-const SWEEPS: u32 = 2;
-const IN_MOTION: u32 = 8;
-const BUDGET: u32 = 40_000;
-
-/// Share of an overlap that is pushed out at the end of a step, and of the contact margin that is left.
-const PUSH_OUT: f32 = 0.5;
-const LEFT_IN: f64 = 0.1;
 
 /// Contacts, and the bodies that they hold.
 pub(crate) struct Rest {
@@ -144,158 +121,14 @@ impl Rest {
         }
     }
 
-    /// Looks at a pair closely: new geometry, old impulses. A pair that is out of reach rests no more.
-    fn renew(&mut self, bodies: &Bodies, pair: &mut Pair, (law, span): (RestLaw, Span)) {
-        let (Some(a), Some(b)) = (bodies.collider(pair.colliders.0), bodies.collider(pair.colliders.1))
-        else {
-            return;
-        };
-        let margin = law.contact_margin();
-        let grain = a.reach.min(b.reach);
-        let way = |side: usize| {
-            let (linear, angular) = bodies.paces[pair.rows[side]];
-            linear + angular * pair.spin_reach[side]
-        };
-        let ahead = ((way(0) + way(1)) * (law.step - span.from)).min(0.2 * grain);
-        let approach = Approach::new(bodies, a, b, law);
-        let mut manifolds = Vec::new();
-        approach.manifolds(span.from, margin + 0.01 * grain + ahead, &mut manifolds);
-
-        let side = |collider: &crate::bodies::ColliderRow, outward: DVec3, point: DVec3| {
-            let constants = &bodies.constants[collider.row];
-            let center = bodies.center_pose(collider);
-            let pose = center.then_local(&collider.local);
-            let local = (pose.inverse_transform_point(point), pose.rotation.conjugate() * outward);
-            let movable = constants.is_movable();
-            Side {
-                center: center.position,
-                inverse_mass: constants.inverse_mass,
-                inverse_inertia: if movable {
-                    constants.inverse_inertia(center.rotation)
-                } else {
-                    DMat3::ZERO
-                },
-                drift: self.rows.drift(collider.row),
-                roundness: collider.shape.roundness(local.0, local.1),
-            }
-        };
-        let terms = Terms { surface: pair.surface, margin, horizon: horizon(pair, grain, law) };
-        let old = std::mem::take(&mut pair.supports);
-        let lanes: Vec<_> = manifolds
-            .iter()
-            .filter(|manifold| !manifold.points().is_empty())
-            .map(|manifold| {
-                let normal = manifold.normal;
-                let at = manifold.points()[0].point;
-                let sides = [side(a, normal, at), side(b, -normal, at)];
-                let remembered = self.remembered(&old, manifold);
-                (manifold, lane(normal, manifold.points(), &sides, &terms, &remembered))
-            })
-            .collect();
-        let rows = pair.rows.map(|row| row as u32);
-        let movable = pair.rows.map(|row| bodies.constants[row].is_movable());
-        for (number, (manifold, lane)) in lanes.iter().enumerate() {
-            let contact = match old.get(number) {
-                Some(support) => {
-                    self.graph.write(support.contact, lane);
-                    support.contact
-                }
-                None => {
-                    pair.rows.into_iter().for_each(|row| self.rows.hold(row));
-                    self.graph.insert(rows, movable, lane)
-                }
-            };
-            pair.supports.push(Support::new(contact, manifold));
-        }
-        for support in old.iter().skip(lanes.len()) {
-            self.release(support);
-        }
-        pair.rests = !pair.supports.is_empty();
-    }
-
-    /// The impulses of the contacts that a manifold follows upon: point by point where the same features touch, else in equal
-    /// parts.
-    fn remembered(&self, old: &[Support], manifold: &Manifold) -> Remembered {
-        let mut remembered = Remembered::default();
-        let mut matched = false;
-        for (entry, point) in remembered.pressure.iter_mut().zip(manifold.points()) {
-            let features = (point.feature_a, point.feature_b);
-            for support in old {
-                if let Some(index) = support.features().iter().position(|&it| it == features) {
-                    *entry =
-                        f64::from(self.graph.get(support.contact, field::of_point(index, field::IMPULSE)));
-                    matched = true;
-                    break;
-                }
-            }
-        }
-        let alike = old.iter().max_by(|x, y| {
-            let likeness = |support: &Support| support.normal.dot(manifold.normal);
-            likeness(x).total_cmp(&likeness(y))
-        });
-        let Some(support) = alike.filter(|support| support.normal.dot(manifold.normal) > 0.9) else {
-            return remembered;
-        };
-        let read = |field: usize| f64::from(self.graph.get(support.contact, field));
-        let axis = |field: usize| DVec3::new(read(field), read(field + 1), read(field + 2));
-        let (first, normal) = (axis(field::TANGENT), axis(field::NORMAL));
-        remembered.friction = first * read(field::FRICTION) + normal.cross(first) * read(field::FRICTION + 1);
-        remembered.twist = read(field::TWIST);
-        if !matched {
-            let count = support.features().len();
-            let total: f64 = (0..count).map(|index| read(field::of_point(index, field::IMPULSE))).sum();
-            let points = manifold.points().len();
-            remembered.pressure[..points].fill(total / points as f64);
-        }
-        remembered
-    }
-
-    /// Finds what holds the bodies that rest on something during `span`, and gives them their paths; returns the rows of these
-    /// bodies.
-    pub fn hold(&mut self, bodies: &mut Bodies, pairs: &mut Pairs, law: RestLaw, span: Span) -> Vec<usize> {
-        let held = self.rows.held().to_vec();
-        for &row in &held {
-            advance(bodies, row, span.from);
-        }
-        let limit = if span.from == 0.0 { DRIFT } else { DRIFT_WITHIN };
-        self.renew_moved(bodies, pairs, &held, (law, span, limit));
-        self.graph.measure(&self.rows.drifts);
-        self.let_part(pairs, law);
-        self.push(bodies, law, span)
-    }
-
-    /// Renews the contacts of the bodies that have moved further than `limit` from their anchors.
-    fn renew_moved(
-        &mut self,
-        bodies: &mut Bodies,
-        pairs: &mut Pairs,
-        held: &[usize],
-        (law, span, limit): (RestLaw, Span, f64),
-    ) {
-        let mut has_moved = vec![false; bodies.states.len()];
-        for &row in held {
-            if self.rows.read_drift(bodies, row, bodies.grains[row]) > limit {
-                has_moved[row] = true;
-                self.rows.anchor(bodies, row);
-            }
-        }
-        for index in 0..self.resting.len() {
-            let pair = &mut pairs[self.resting[index]];
-            if pair.rests && pair.rows.into_iter().any(|row| has_moved[row]) {
-                self.renew(bodies, pair, (law, span));
-            }
-        }
-        self.resting.retain(|&index| pairs[index].rests);
-    }
-
-    /// Lets go of pairs whose every point is further apart than the contact margin.
-    fn let_part(&mut self, pairs: &mut Pairs, law: RestLaw) {
-        let margin = law.contact_margin() as f32;
+    /// Lets go of pairs whose every point has left the reach of contacts.
+    fn let_part(&mut self, pairs: &mut Pairs) {
         let resting = std::mem::take(&mut self.resting);
         for &index in &resting {
-            let gap = |support: &Support| self.graph.get(support.contact, field::GAP);
+            let get = |support: &Support, field: usize| self.graph.get(support.contact, field);
+            let has_left = |support: &Support| get(support, field::GAP) > get(support, field::HORIZON);
             let pair = &mut pairs[index];
-            if pair.supports.iter().all(|support| gap(support) > margin) {
+            if pair.supports.iter().all(has_left) {
                 self.drop_contacts(pair);
                 pair.rests = false;
                 pair.supports.clear();
@@ -303,89 +136,6 @@ impl Rest {
         }
         self.resting = resting;
         self.resting.retain(|&index| pairs[index].rests);
-    }
-
-    /// Solves, and turns the velocities found into paths.
-    fn push(&mut self, bodies: &mut Bodies, law: RestLaw, span: Span) -> Vec<usize> {
-        let substep = span.until - span.from;
-        let held = self.rows.held().to_vec();
-        let mut gains = Vec::with_capacity(held.len());
-        for &row in &held {
-            let free = if bodies.is_asleep(row) {
-                Influence::default()
-            } else {
-                free_influence(bodies, row, law.gravity)
-            };
-            let inverse_inertia = bodies.constants[row].inverse_inertia(bodies.states[row].rotation);
-            let gain = [free.acceleration * substep, inverse_inertia * free.torque * substep];
-            self.rows.read_velocity(bodies, row, gain);
-            gains.push((gain, free.torque * substep, self.rows.velocities[row]));
-        }
-        fn knob(n: &str, d: f64) -> f64 {
-            std::env::var(n).ok().and_then(|x| x.parse().ok()).unwrap_or(d)
-        }
-        self.graph.begin(&mut self.rows.velocities, law.contact_margin(), substep);
-        let persisting: Vec<Row> = held.iter().map(|&row| self.rows.velocities[row]).collect();
-        let agreement = (knob("A", AGREEMENT) * law.gravity.length() * substep).max(1e-7) as f32;
-        let exactness = (EXACTNESS * law.gravity.length() * substep).max(1e-7) as f32;
-        let quiet = (QUIET * law.gravity.length() * substep) as f32;
-        let effort = Effort {
-            agreement,
-            exactness,
-            quiet,
-            sweeps: SWEEPS,
-            in_motion: knob("M", IN_MOTION as f64) as u32,
-            budget: knob("B", BUDGET as f64) as u32,
-        };
-        self.graph.solve(&mut self.rows.velocities, effort, |row| {
-            let (state, constants) = (&bodies.states[row as usize], &bodies.constants[row as usize]);
-            constants.is_movable().then(|| Mobility {
-                inverse_mass: constants.inverse_mass,
-                inverse_inertia: constants.inverse_inertia(state.rotation),
-            })
-        });
-
-        for ((&row, (gain, turn, before)), warm) in held.iter().zip(gains).zip(persisting) {
-            if !bodies.constants[row].is_movable() || bodies.is_asleep(row) {
-                continue;
-            }
-            let after = self.rows.velocities[row];
-            let [linear, angular] = difference(&after, &before);
-            let inertia = bodies.constants[row].inertia(bodies.states[row].rotation);
-            let change = [gain[0] + linear, turn + inertia * angular];
-            let sudden = difference(&after, &warm);
-            let steady =
-                sudden[0].length().max(sudden[1].length() * bodies.grains[row]) <= STEADY * gain[0].length();
-            follow(bodies, row, change, (substep, steady));
-            set_pace(bodies, row, span.until);
-        }
-        held
-    }
-
-    /// Pushes overlaps out, at the end of a step; velocities stay.
-    pub fn push_out(&mut self, bodies: &mut Bodies, law: RestLaw) {
-        let held = self.rows.held().to_vec();
-        for &row in &held {
-            self.rows.read_drift(bodies, row, 1.0);
-            let velocity = self.rows.velocities[row].0;
-            let still = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, velocity[6], velocity[7]];
-            self.rows.displacements[row] = Row(still);
-        }
-        self.graph.measure(&self.rows.drifts);
-        let allowed = (LEFT_IN * law.contact_margin()) as f32;
-        if !self.graph.push_out(&mut self.rows.displacements, PUSH_OUT, allowed) {
-            return;
-        }
-        for &row in &held {
-            let [linear, angular] = difference(&self.rows.displacements[row], &Row::ZERO);
-            if linear != DVec3::ZERO || angular != DVec3::ZERO {
-                let state = &mut bodies.states[row];
-                state.position += linear;
-                state.rotation = (rotation_from_vector(angular) * state.rotation).normalize();
-                bodies.ways[row].0 += linear.length();
-                bodies.ways[row].1 += angular.length();
-            }
-        }
     }
 
     /// The pairs that touch.
@@ -396,8 +146,7 @@ impl Rest {
     }
 
     /// Whether all points of a pair that rests are so near that the contacts have them all.
-    pub fn is_closed(&self, pair: &Pair, law: RestLaw) -> bool {
-        let _ = law;
+    pub fn is_closed(&self, pair: &Pair) -> bool {
         pair.supports.iter().all(|support| {
             let get = |field: usize| self.graph.get(support.contact, field);
             get(field::WIDEST) <= get(field::HORIZON)
@@ -449,27 +198,4 @@ fn horizon(pair: &Pair, grain: f64, law: RestLaw) -> f64 {
     } else {
         law.contact_margin().max(PRESSED * grain)
     }
-}
-
-/// Where the sweeps change a body's velocity by less than this share of what gravity does, the forces on it persist.
-const STEADY: f64 = 0.05;
-
-fn difference(after: &Row, before: &Row) -> [DVec3; 2] {
-    let change = |index: usize| f64::from(after.0[index] - before.0[index]);
-    [DVec3::new(change(0), change(1), change(2)), DVec3::new(change(3), change(4), change(5))]
-}
-
-/// Sets a body on its path for a substep in which its velocity and angular momentum get `change`d: a parabola where the forces
-/// persist, so that what slides or rolls gets the distance right; else with the new velocity from the start, as what meets
-/// an obstacle must not go on into it for half a substep.
-fn follow(bodies: &mut Bodies, row: usize, change: [DVec3; 2], (substep, steady): (f64, bool)) {
-    let state = &mut bodies.states[row];
-    bodies.influences[row] = if steady {
-        Influence { acceleration: change[0] / substep, torque: change[1] / substep }
-    } else {
-        state.velocity += change[0];
-        state.angular_momentum += change[1];
-        Influence::default()
-    };
-    debug_assert!(row != WORLD_ROW);
 }

@@ -1,0 +1,171 @@
+//! What holds the bodies that rest during a substep, and the paths that this gives them.
+
+use super::renew::{DRIFT, DRIFT_WITHIN};
+use super::{Rest, Span};
+use crate::bodies::{Bodies, WORLD_ROW};
+use crate::flight::Influence;
+use crate::impacts::time_of_impact::RestLaw;
+use crate::math::{DVec3, rotation_from_vector};
+use crate::solver::direct::Mobility;
+use crate::solver::graph::Effort;
+use crate::solver::lanes::Row;
+use crate::step::motion::{advance, free_influence, set_pace};
+use crate::step::pairs::Pairs;
+
+/// Velocities agree when a sweep changes them by no more than this share of what gravity does in a substep; those of small
+/// islands, which are solved directly, when nothing is further off than the second.
+const AGREEMENT: f64 = 1e-3;
+const EXACTNESS: f64 = 1e-5;
+const QUIET: f64 = 3.0;
+
+/// Sweeps that every contact gets in a substep, that an island in motion may take, and contacts times sweeps that one about to
+/// rest may.
+const SWEEPS: u32 = 2;
+const IN_MOTION: u32 = 8;
+const BUDGET: u32 = 40_000;
+
+/// Share of an overlap that is pushed out at the end of a step, and of the contact margin that is left.
+const PUSH_OUT: f32 = 0.5;
+const LEFT_IN: f64 = 0.1;
+
+impl Rest {
+    /// Finds what holds the bodies that rest on something during `span`, and gives them their paths; returns the rows of these
+    /// bodies.
+    pub fn hold(&mut self, bodies: &mut Bodies, pairs: &mut Pairs, law: RestLaw, span: Span) -> Vec<usize> {
+        let held = self.rows.held().to_vec();
+        for &row in &held {
+            advance(bodies, row, span.from);
+        }
+        let limit = if span.from == 0.0 { DRIFT } else { DRIFT_WITHIN };
+        self.renew_moved(bodies, pairs, &held, (law, span, limit));
+        self.graph.measure(&self.rows.drifts);
+        self.let_part(pairs);
+        self.push(bodies, law, span)
+    }
+
+    /// Solves, and turns the velocities found into paths.
+    fn push(&mut self, bodies: &mut Bodies, law: RestLaw, span: Span) -> Vec<usize> {
+        let substep = span.until - span.from;
+        let held = self.rows.held().to_vec();
+        let mut gains = Vec::with_capacity(held.len());
+        for &row in &held {
+            let free = if bodies.is_asleep(row) {
+                Influence::default()
+            } else {
+                free_influence(bodies, row, law.gravity)
+            };
+            let inverse_inertia = bodies.constants[row].inverse_inertia(bodies.states[row].rotation);
+            let gain = [free.acceleration * substep, inverse_inertia * free.torque * substep];
+            self.rows.read_velocity(bodies, row, gain);
+            gains.push((gain, free.torque * substep, self.rows.velocities[row]));
+        }
+        self.graph.begin(&mut self.rows.velocities, law.contact_margin(), substep);
+        let persisting: Vec<Row> = held.iter().map(|&row| self.rows.velocities[row]).collect();
+        let agreement = (AGREEMENT * law.gravity.length() * substep).max(1e-7) as f32;
+        let exactness = (EXACTNESS * law.gravity.length() * substep).max(1e-7) as f32;
+        let quiet = (QUIET * law.gravity.length() * substep) as f32;
+        let effort =
+            Effort { agreement, exactness, quiet, sweeps: SWEEPS, in_motion: IN_MOTION, budget: BUDGET };
+        self.graph.solve(&mut self.rows.velocities, effort, |row| {
+            let (state, constants) = (&bodies.states[row as usize], &bodies.constants[row as usize]);
+            constants.is_movable().then(|| Mobility {
+                inverse_mass: constants.inverse_mass,
+                inverse_inertia: constants.inverse_inertia(state.rotation),
+            })
+        });
+
+        for ((&row, (gain, turn, before)), warm) in held.iter().zip(gains).zip(persisting) {
+            if !bodies.constants[row].is_movable() || bodies.is_asleep(row) {
+                continue;
+            }
+            let after = self.rows.velocities[row];
+            let [linear, angular] = difference(&after, &before);
+            let inertia = bodies.constants[row].inertia(bodies.states[row].rotation);
+            let mut change = [gain[0] + linear, turn + inertia * angular];
+            let pull = gain[0].length();
+            if linear.length() > SUPPORTED * pull && change[0].length() < DRIVEN * pull {
+                capture(bodies, row, &mut change, law);
+            }
+            let sudden = difference(&after, &warm);
+            let steady =
+                sudden[0].length().max(sudden[1].length() * bodies.grains[row]) <= STEADY * gain[0].length();
+            follow(bodies, row, change, (substep, steady));
+            set_pace(bodies, row, span.until);
+        }
+        held
+    }
+
+    /// Pushes overlaps out, at the end of a step; velocities stay.
+    pub fn push_out(&mut self, bodies: &mut Bodies, law: RestLaw) {
+        let held = self.rows.held().to_vec();
+        for &row in &held {
+            self.rows.read_drift(bodies, row, 1.0);
+            let velocity = self.rows.velocities[row].0;
+            let still = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, velocity[6], velocity[7]];
+            self.rows.displacements[row] = Row(still);
+        }
+        self.graph.measure(&self.rows.drifts);
+        let allowed = (LEFT_IN * law.contact_margin()) as f32;
+        if !self.graph.push_out(&mut self.rows.displacements, PUSH_OUT, allowed) {
+            return;
+        }
+        for &row in &held {
+            let [linear, angular] = difference(&self.rows.displacements[row], &Row::ZERO);
+            if linear != DVec3::ZERO || angular != DVec3::ZERO {
+                let state = &mut bodies.states[row];
+                state.position += linear;
+                state.rotation = (rotation_from_vector(angular) * state.rotation).normalize();
+                bodies.ways[row].0 += linear.length();
+                bodies.ways[row].1 += angular.length();
+            }
+        }
+    }
+}
+
+/// Where the sweeps change a body's velocity by less than this share of what gravity does, the forces on it persist.
+const STEADY: f64 = 0.05;
+
+fn difference(after: &Row, before: &Row) -> [DVec3; 2] {
+    let change = |index: usize| f64::from(after.0[index] - before.0[index]);
+    [DVec3::new(change(0), change(1), change(2)), DVec3::new(change(3), change(4), change(5))]
+}
+
+/// What rests on something, is driven by nothing and moves no faster than [`CAPTURED`] rest thresholds loses this share of its
+/// speed in a second, fading out towards that speed. Rolling has no friction of its own: without it a ball would roll about
+/// a pile for ever at a speed that gravity and the substep hardly tell from rest.
+const RESISTANCE: f64 = 2.0;
+const CAPTURED: f64 = 8.0;
+
+/// A body rests on something if contacts push it by more than this share of what gravity does, and is driven if its velocity
+/// changes by more than the second.
+const SUPPORTED: f64 = 0.5;
+const DRIVEN: f64 = 0.02;
+
+/// Rest capture: takes a little of what a supported body has near the rest threshold. Vanishes without gravity.
+fn capture(bodies: &Bodies, row: usize, change: &mut [DVec3; 2], law: RestLaw) {
+    let (state, constants) = (&bodies.states[row], &bodies.constants[row]);
+    let (velocity, momentum) = (state.velocity + change[0], state.angular_momentum + change[1]);
+    let spin = constants.inverse_inertia(state.rotation) * momentum;
+    let speed = velocity.length().max(spin.length() * bodies.grains[row]);
+    let slowness = 1.0 - speed / (CAPTURED * law.rest_speed());
+    if slowness > 0.0 {
+        let share = RESISTANCE * law.substep * slowness;
+        change[0] -= share * velocity;
+        change[1] -= share * momentum;
+    }
+}
+
+/// Sets a body on its path for a substep in which its velocity and angular momentum get `change`d: a parabola where the forces
+/// persist, so that what slides or rolls gets the distance right; else with the new velocity from the start, as what meets
+/// an obstacle must not go on into it for half a substep.
+fn follow(bodies: &mut Bodies, row: usize, change: [DVec3; 2], (substep, steady): (f64, bool)) {
+    let state = &mut bodies.states[row];
+    bodies.influences[row] = if steady {
+        Influence { acceleration: change[0] / substep, torque: change[1] / substep }
+    } else {
+        state.velocity += change[0];
+        state.angular_momentum += change[1];
+        Influence::default()
+    };
+    debug_assert!(row != WORLD_ROW);
+}
