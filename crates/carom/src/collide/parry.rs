@@ -142,6 +142,11 @@ fn convex_manifold(
     let mut candidates = Candidates::new(margin);
     clip::contacts(convex_a, convex_b, &inner, normal, &mut candidates);
     let size = convex_a.core.reach().min(convex_b.core.reach()).max(radii);
+    // A triangle seen edge-on does not tell on which side of it the other shape is, and what the surface allows may then lead all
+    // through that shape. Such a way is none; another triangle has the contact.
+    if corrected && candidates.least_separation() < least.gap - radii - 0.1 * size {
+        return None;
+    }
     if !corrected && candidates.least_separation() > least.gap - radii + 1e-6 * size {
         candidates.push(clip::witness(convex_a, convex_b, &inner, &least));
     }

@@ -84,7 +84,7 @@ struct Push {
 struct Unknown {
     /// What a unit of it does to the bodies that it acts on.
     pushes: [Option<Push>; 2],
-    /// The velocity that it is to bring about, along itself.
+    /// The velocity that it is to bring about, along itself, less that of a side which nothing moves.
     wanted: f64,
     /// 1 / the response to a unit of it; 0 where there is none.
     mass: f64,
@@ -154,6 +154,10 @@ impl Island {
         let second = normal.cross(first);
         let outward = |v: DVec3| first * v.x + second * v.y + normal * v.z;
         let rows = [bundle.a[lane], bundle.b[lane]];
+        let velocity_of = |row: u32| -> Vector {
+            let values = velocities[row as usize].0;
+            std::array::from_fn(|axis| f64::from(values[axis]))
+        };
         let numbers = rows.map(|row| mobility(row).map(|it| self.number(row, it, velocities)));
 
         let mut unknown = |directions: [Vector; 2], wanted: f64, number: usize| {
@@ -167,6 +171,11 @@ impl Island {
             let is_real = get(field::MASSES[number]) > 0.0 && response > 0.0;
             let mass = if is_real { (1.0 / response).min(largest) } else { 0.0 };
             let impulse = get(field::IMPULSES[number]);
+            let held = [0, 1].map(|side| match numbers[side] {
+                Some(_) => 0.0,
+                None => dot(&directions[side], &velocity_of(rows[side])),
+            });
+            let wanted = wanted - held[0] - held[1];
             self.unknowns.push(Unknown { pushes, wanted, mass, impulse, is_active: false });
         };
         let along = |direction: DVec3, arms: [DVec3; 2]| {

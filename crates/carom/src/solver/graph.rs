@@ -257,17 +257,20 @@ impl Graph {
     }
 
     /// Lets the impulses of the last substep act again, where they are a good start.
-    pub fn begin(&mut self, velocities: &mut [Row], margin: f64, substep: f64) {
+    ///
+    /// They are asked for work only in islands whose bodies move faster than `lively` against each other: near rest their
+    /// work is noise.
+    pub fn begin(&mut self, velocities: &mut [Row], [margin, lively]: [f64; 2], substep: f64) {
         let limits = [margin as f32, (1.0 / substep) as f32];
         let before = velocities.to_vec();
         self.each_bundle(|bundle| contact::begin::<Wide>(bundle, velocities, limits));
         self.find_islands(velocities.len());
-        self.refuse_gains(&before, velocities);
+        self.refuse_gains(&before, velocities, lively);
     }
 
     /// Takes back the impulses that act again in those islands in which they do work: all forces of contacts together never do, so that
     /// these would be a worse start than none.
-    fn refuse_gains(&mut self, before: &[Row], velocities: &mut [Row]) {
+    fn refuse_gains(&mut self, before: &[Row], velocities: &mut [Row], lively: f64) {
         let mut gains = vec![0.0; self.islands.sizes.len()];
         for bundle in self.colors.iter().flat_map(|color| &color.bundles) {
             for (lane, work) in contact::work::<Wide>(bundle, before, velocities).0.into_iter().enumerate() {
@@ -275,6 +278,9 @@ impl Graph {
                     gains[island] += f64::from(work);
                 }
             }
+        }
+        for (gain, spread) in gains.iter_mut().zip(self.spreads(before)) {
+            *gain = if f64::from(spread) > lively { *gain } else { 0.0 };
         }
         if gains.iter().all(|&gain| gain <= 0.0) {
             return;
@@ -310,8 +316,11 @@ impl Graph {
             self.each_bundle(|bundle| contact::sweep::<Wide>(bundle, velocities));
         }
         self.find_islands(velocities.len());
-        let quiet = self.quiet_islands(velocities, effort);
+        // Islands that are about to rest: no body moves fast against another.
+        let quiet: Vec<bool> =
+            self.spreads(velocities).iter().map(|&spread| spread <= effort.quiet).collect();
         self.solve_small(velocities, (effort, &quiet), &mobility);
+        self.solve_patches(velocities, effort, &mobility);
         let sizes = self.islands.sizes.iter().zip(&quiet);
         let most: Vec<u32> =
             sizes
@@ -355,8 +364,8 @@ impl Graph {
         }
     }
 
-    /// Which islands are about to rest: no body moves fast against another.
-    fn quiet_islands(&self, velocities: &[Row], effort: Effort) -> Vec<bool> {
+    /// How fast the bodies of each island move against each other, m/s.
+    fn spreads(&self, velocities: &[Row]) -> Vec<f32> {
         let mut spreads = vec![Spread::NONE; self.islands.sizes.len()];
         for bundle in self.colors.iter().flat_map(|color| &color.bundles) {
             for lane in 0..LANES {
@@ -366,7 +375,7 @@ impl Graph {
                 }
             }
         }
-        spreads.iter().map(|spread| spread.width() <= effort.quiet).collect()
+        spreads.iter().map(Spread::width).collect()
     }
 
     /// Solves those small quiet islands directly whose velocities do not agree after the first sweeps.
@@ -393,25 +402,96 @@ impl Graph {
                 self.islands.pauses[island] -= 1;
                 continue;
             }
-            let mut small = direct::Island::default();
-            for &(color, lane) in members {
-                let bundle = &self.colors[color].bundles[lane / LANES];
-                small.add(bundle, lane % LANES, velocities, &mobility);
-            }
-            let residual = small.solve(f64::from(effort.exactness)) as f32;
+            let residual = self.solve_at_once(members, velocities, effort, &mobility);
             self.islands.pauses[island] = if residual <= effort.exactness { 0 } else { PAUSE };
-            if residual > effort.agreement {
-                continue;
+        }
+    }
+
+    /// Solves some contacts directly, with all bodies as they are that `mobility` knows nothing of; returns how far they were
+    /// from agreeing in the end, and takes the result if that is near enough.
+    fn solve_at_once(
+        &mut self,
+        members: &[(usize, usize)],
+        velocities: &mut [Row],
+        effort: Effort,
+        mobility: impl Fn(u32) -> Option<Mobility>,
+    ) -> f32 {
+        let mut small = direct::Island::default();
+        for &(color, lane) in members {
+            let bundle = &self.colors[color].bundles[lane / LANES];
+            small.add(bundle, lane % LANES, velocities, &mobility);
+        }
+        let residual = small.solve(f64::from(effort.exactness)) as f32;
+        if residual > effort.agreement {
+            return residual;
+        }
+        small.write(velocities);
+        for (number, &(color, lane)) in members.iter().enumerate() {
+            let bundle = &mut self.colors[color].bundles[lane / LANES];
+            for (line, impulse) in field::IMPULSES.into_iter().zip(small.impulses(number)) {
+                bundle.lines[line].0[lane % LANES] = impulse;
             }
-            small.write(velocities);
-            for (number, &(color, lane)) in members.iter().enumerate() {
-                let bundle = &mut self.colors[color].bundles[lane / LANES];
-                for (line, impulse) in field::IMPULSES.into_iter().zip(small.impulses(number)) {
-                    bundle.lines[line].0[lane % LANES] = impulse;
+            bundle.lines[field::RESIDUAL].0[lane % LANES] = 0.0;
+        }
+        residual
+    }
+
+    /// Solves the places directly at which large islands do not agree, where these are few: the bodies there and their
+    /// neighbours, with all others as they are.
+    fn solve_patches(
+        &mut self,
+        velocities: &mut [Row],
+        effort: Effort,
+        mobility: impl Fn(u32) -> Option<Mobility>,
+    ) {
+        let mut contacts_of: Vec<Vec<(usize, usize)>> = vec![Vec::new(); velocities.len()];
+        let mut patch: Vec<u32> = Vec::new();
+        let mut in_patch = vec![false; velocities.len()];
+        for color in self.order() {
+            for lane in 0..self.colors[color].contacts.len() {
+                let bundle = &self.colors[color].bundles[lane / LANES];
+                let is_large = |island: usize| self.islands.bodies[island] > direct::BODIES;
+                if !self.island_of(bundle, lane % LANES).is_some_and(is_large) {
+                    continue;
                 }
-                bundle.lines[field::RESIDUAL].0[lane % LANES] = 0.0;
+                let is_open = bundle.get(lane % LANES, field::RESIDUAL) > effort.agreement;
+                for row in [bundle.a[lane % LANES], bundle.b[lane % LANES]] {
+                    contacts_of[row as usize].push((color, lane));
+                    if is_open && !in_patch[row as usize] && mobility(row).is_some() {
+                        in_patch[row as usize] = true;
+                        patch.push(row);
+                    }
+                }
             }
         }
+        if patch.is_empty() || patch.len() > PATCH / 2 {
+            return;
+        }
+        let mut spread = Spread::NONE;
+        let mut next = 0;
+        while let Some(&row) = patch.get(next).filter(|_| patch.len() < PATCH) {
+            next += 1;
+            spread.include(&velocities[row as usize]);
+            for &(color, lane) in &contacts_of[row as usize] {
+                let bundle = &self.colors[color].bundles[lane / LANES];
+                for row in [bundle.a[lane % LANES], bundle.b[lane % LANES]] {
+                    if !in_patch[row as usize] && mobility(row).is_some() {
+                        in_patch[row as usize] = true;
+                        patch.push(row);
+                    }
+                }
+            }
+        }
+        if spread.width() > effort.quiet {
+            return;
+        }
+        let mut members: Vec<(usize, usize)> =
+            patch.iter().flat_map(|&row| contacts_of[row as usize].iter().copied()).collect();
+        members.sort_unstable();
+        members.dedup();
+        self.solve_at_once(&members, velocities, effort, |row| {
+            if in_patch[row as usize] { mobility(row) } else { None }
+        });
     }
 
     /// One sweep, and a step further in the direction in which sweeps have been going: nonsmooth nonlinear conjugate gradients
@@ -559,6 +639,9 @@ impl Graph {
         true
     }
 }
+
+/// Bodies in a patch of a large island.
+const PATCH: usize = 128;
 
 /// Sweeps between two looks at which islands agree.
 const ROUND: u32 = 4;

@@ -12,11 +12,15 @@ use crate::solver::lanes::Row;
 use crate::step::motion::{advance, free_influence, set_pace};
 use crate::step::pairs::Pairs;
 
-/// Velocities agree when a sweep changes them by no more than this share of what gravity does in a substep; those of small
-/// islands, which are solved directly, when nothing is further off than the second.
+/// Speeds in units of what gravity does in a substep. Velocities agree when a sweep changes them by no more than the first; where
+/// they are solved directly, when nothing is further off than the second.
 const AGREEMENT: f64 = 1e-3;
 const EXACTNESS: f64 = 1e-5;
+
+/// An island whose bodies move no faster than this against each other is about to rest, and worth the effort of both; in one
+/// where they move faster than the second, impulses that act again must not do work.
 const QUIET: f64 = 3.0;
+const LIVELY: f64 = 20.0;
 
 /// Sweeps that every contact gets in a substep, that an island in motion may take, and contacts times sweeps that one about to
 /// rest may.
@@ -59,7 +63,8 @@ impl Rest {
             self.rows.read_velocity(bodies, row, gain);
             gains.push((gain, free.torque * substep, self.rows.velocities[row]));
         }
-        self.graph.begin(&mut self.rows.velocities, law.contact_margin(), substep);
+        let lively = LIVELY * law.gravity.length() * substep;
+        self.graph.begin(&mut self.rows.velocities, [law.contact_margin(), lively], substep);
         let persisting: Vec<Row> = held.iter().map(|&row| self.rows.velocities[row]).collect();
         let agreement = (AGREEMENT * law.gravity.length() * substep).max(1e-7) as f32;
         let exactness = (EXACTNESS * law.gravity.length() * substep).max(1e-7) as f32;
@@ -139,7 +144,7 @@ const CAPTURED: f64 = 8.0;
 /// A body rests on something if contacts push it by more than this share of what gravity does, and is driven if its velocity
 /// changes by more than the second.
 const SUPPORTED: f64 = 0.5;
-const DRIVEN: f64 = 0.02;
+const DRIVEN: f64 = 0.002;
 
 /// Rest capture: takes a little of what a supported body has near the rest threshold. Vanishes without gravity.
 fn capture(bodies: &Bodies, row: usize, change: &mut [DVec3; 2], law: RestLaw) {
