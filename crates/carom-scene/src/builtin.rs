@@ -33,6 +33,22 @@ const SCENES: &[BuiltinScene] = &[
         "glb",
         "two balls dropped from 1.5 m: one bounces, one hardly does"
     ),
+    builtin!(
+        "galilean-cannon",
+        "json",
+        "balls of falling mass dropped together: the lightest flies off many times as high"
+    ),
+    builtin!("slope", "json", "on a slope of 20 degrees ice slides, wood and rubber hold"),
+    builtin!("stack", "json", "twenty boxes, and ten tonnes on a box of 100 kg: nothing sinks"),
+    builtin!("wall", "json", "a wall of bricks stands until a steel ball is thrown into it"),
+    builtin!("dominoes", "json", "a ball tips the first of 21 dominoes on a winding line"),
+    builtin!("pile", "json", "500 balls, boxes, capsules, cylinders, cones and wedges fall into a pit"),
+    builtin!("marble-run", "json", "marbles roll down a winding track of triangles into a bowl"),
+    builtin!(
+        "conveyor-and-turntable",
+        "json",
+        "a belt takes bodies along; a turntable carries two boxes and loses the third"
+    ),
 ];
 
 /// The built-in scenes, the one to start with first.
