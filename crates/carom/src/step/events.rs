@@ -185,6 +185,8 @@ impl<'a> Events<'a> {
             let later = time + now.patience * self.law.step;
             if later < span.until {
                 self.ask(index, Span { from: later, ..span });
+            } else {
+                self.pairs[index].now.asked_until = span.until;
             }
             return;
         };

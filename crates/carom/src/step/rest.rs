@@ -16,7 +16,7 @@ mod renew;
 #[cfg(test)]
 mod validate;
 
-use crate::bodies::Bodies;
+use crate::bodies::{Bodies, WORLD_ROW};
 use crate::impacts::time_of_impact::{Approach, RestLaw};
 use crate::math::DVec3;
 use crate::solver::bundle::field;
@@ -50,12 +50,14 @@ impl Rest {
         self.rows.grow(bodies.states.len());
         parted.iter().for_each(|pair| self.drop_contacts(pair));
         self.resting = (0..pairs.len()).filter(|&index| pairs[index].rests).collect();
-        for &index in &self.resting {
-            let rows = pairs[index].rows;
-            if rows.into_iter().any(|row| bodies.constants[row].is_movable() && !bodies.is_asleep(row)) {
-                rows.into_iter().for_each(|row| {
-                    bodies.wake(row);
-                });
+        let mut goes_on = true;
+        while goes_on {
+            goes_on = false;
+            for &index in &self.resting {
+                let rows = pairs[index].rows;
+                if rows.into_iter().any(|row| stirs(bodies, row)) {
+                    goes_on |= rows.into_iter().filter(|&row| bodies.wake(row)).count() > 0;
+                }
             }
         }
     }
@@ -93,7 +95,8 @@ impl Rest {
         let margin = law.contact_margin();
         for index in 0..pairs.len() {
             let pair = &pairs[index];
-            if pair.rests || pair.sensor || pair.least_separation(bodies, span.from) > margin {
+            let is_idle = !pair.rows.into_iter().any(|row| stirs(bodies, row));
+            if pair.rests || pair.sensor || is_idle || pair.least_separation(bodies, span.from) > margin {
                 continue;
             }
             let Some(approach) = Approach::of(bodies, pair.colliders, law) else { continue };
@@ -144,7 +147,7 @@ impl Rest {
     pub fn touching<'a>(&'a self, pairs: &'a Pairs, law: RestLaw) -> impl Iterator<Item = &'a Pair> {
         let margin = law.contact_margin() as f32;
         let touches = move |support: &Support| self.graph.get(support.contact, field::GAP) <= margin;
-        self.resting.iter().map(|&index| &pairs[index]).filter(move |pair| pair.supports.iter().any(touches))
+        pairs.iter().filter(move |pair| pair.rests && pair.supports.iter().any(touches))
     }
 
     /// Whether all points of a pair that rests are so near that the contacts have them all.
@@ -200,4 +203,14 @@ fn horizon(pair: &Pair, grain: f64, law: RestLaw) -> f64 {
     } else {
         law.contact_margin().max(PRESSED * grain)
     }
+}
+
+/// Whether a body keeps its neighbours awake: it is awake itself, and moves or can be moved.
+fn stirs(bodies: &Bodies, row: usize) -> bool {
+    if row == WORLD_ROW || bodies.is_asleep(row) {
+        return false;
+    }
+    let (state, constants) = (&bodies.states[row], &bodies.constants[row]);
+    let spin = constants.angular_velocity(state);
+    constants.is_movable() || state.velocity != DVec3::ZERO || spin != DVec3::ZERO
 }

@@ -132,7 +132,7 @@ fn impulses_act_again_only_where_they_do_no_work() {
         ids.push(graph.insert([0, number as u32 + 1], [false, true], &lane));
     }
     let mut velocities = problem.rows();
-    graph.begin(&mut velocities, [1e-4, 1.0], 1.0 / 240.0);
+    graph.begin(&mut velocities, [1e-4, 0.0], 1.0 / 240.0);
     graph.validate(|row| row > 0);
     assert!(velocities[1].0[1].abs() < 1e-6, "{:?}", velocities[1]);
     assert_eq!(velocities[2], problem.rows()[2]);

@@ -33,24 +33,39 @@ const PUSH_OUT: f32 = 0.5;
 const LEFT_IN: f64 = 0.1;
 
 impl Rest {
-    /// Finds what holds the bodies that rest on something during `span`, and gives them their paths; returns the rows of these
-    /// bodies.
+    /// Finds what holds the bodies that rest on something during `span`, and gives them their paths; returns the rows whose
+    /// paths are new.
     pub fn hold(&mut self, bodies: &mut Bodies, pairs: &mut Pairs, law: RestLaw, span: Span) -> Vec<usize> {
         let held = self.rows.held().to_vec();
         for &row in &held {
             advance(bodies, row, span.from);
         }
+        let mut freed = Vec::new();
         let limit = if span.from == 0.0 { DRIFT } else { DRIFT_WITHIN };
         self.renew_moved(bodies, pairs, &held, (law, span, limit));
         self.graph.measure(&self.rows.drifts);
         self.let_part(pairs);
-        self.push(bodies, law, span)
+        for row in held.into_iter().filter(|&row| !self.rows.is_held(row)) {
+            if !bodies.is_asleep(row) {
+                bodies.influences[row] = free_influence(bodies, row, law.gravity);
+                set_pace(bodies, row, law.step);
+                freed.push(row);
+            }
+        }
+        let mut rerouted = self.push(bodies, pairs, (law, span));
+        rerouted.append(&mut freed);
+        rerouted
     }
 
     /// Solves, and turns the velocities found into paths.
-    fn push(&mut self, bodies: &mut Bodies, law: RestLaw, span: Span) -> Vec<usize> {
+    fn push(&mut self, bodies: &mut Bodies, pairs: &Pairs, (law, span): (RestLaw, Span)) -> Vec<usize> {
         let substep = span.until - span.from;
         let held = self.rows.held().to_vec();
+        let mut is_rough = vec![false; bodies.states.len()];
+        for &index in &self.resting {
+            let pair = &pairs[index];
+            pair.rows.into_iter().for_each(|row| is_rough[row] |= pair.surface.static_friction > 0.0);
+        }
         let mut gains = Vec::with_capacity(held.len());
         for &row in &held {
             let free = if bodies.is_asleep(row) {
@@ -73,7 +88,7 @@ impl Rest {
             Effort { agreement, exactness, quiet, sweeps: SWEEPS, in_motion: IN_MOTION, budget: BUDGET };
         self.graph.solve(&mut self.rows.velocities, effort, |row| {
             let (state, constants) = (&bodies.states[row as usize], &bodies.constants[row as usize]);
-            constants.is_movable().then(|| Mobility {
+            (constants.is_movable() && !bodies.is_asleep(row as usize)).then(|| Mobility {
                 inverse_mass: constants.inverse_mass,
                 inverse_inertia: constants.inverse_inertia(state.rotation),
             })
@@ -88,7 +103,7 @@ impl Rest {
             let inertia = bodies.constants[row].inertia(bodies.states[row].rotation);
             let mut change = [gain[0] + linear, turn + inertia * angular];
             let pull = gain[0].length();
-            if linear.length() > SUPPORTED * pull && change[0].length() < DRIVEN * pull {
+            if is_rough[row] && linear.length() > SUPPORTED * pull && change[0].length() < DRIVEN * pull {
                 capture(bodies, row, &mut change, law);
             }
             let sudden = difference(&after, &warm);
@@ -135,7 +150,7 @@ fn difference(after: &Row, before: &Row) -> [DVec3; 2] {
     [DVec3::new(change(0), change(1), change(2)), DVec3::new(change(3), change(4), change(5))]
 }
 
-/// What rests on something, is driven by nothing and moves no faster than [`CAPTURED`] rest thresholds loses this share of its
+/// What rests on something with friction, is driven by nothing and moves no faster than [`CAPTURED`] rest thresholds loses this share of its
 /// speed in a second, fading out towards that speed. Rolling has no friction of its own: without it a ball would roll about
 /// a pile for ever at a speed that gravity and the substep hardly tell from rest.
 const RESISTANCE: f64 = 2.0;
