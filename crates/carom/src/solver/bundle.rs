@@ -41,8 +41,12 @@ pub(crate) mod field {
     /// The least and the largest separation of all points, m.
     pub const GAP: usize = 33;
     pub const WIDEST: usize = 34;
+    /// Radii of curvature where the surfaces are round, of `a` and `b`, m.
+    pub const ROUNDNESS: usize = 35;
+    /// Slip along t₁ and t₂ that the arms' turning during the substep adds, m/s.
+    pub const SWING: usize = 37;
     /// The first point's lines; each further point [`POINT_LINES`] further.
-    pub const POINT: usize = 35;
+    pub const POINT: usize = 39;
 
     /// Of a point: arm of `a` (x, y, and z of what turns with the body), then of `b`.
     pub const ARM_A: usize = 0;

@@ -159,9 +159,18 @@ pub(crate) fn measure<L: Lanes>(bundle: &mut Bundle, drifts: &[Row]) {
 /// A point that touches, up to a gap of `margin`, may part and not close: to close so small a gap would ask for a velocity that the
 /// next substep has to stop, and a stack would rock on that for ever. One further away, up to the contact's horizon, may
 /// close as far as its gap lets it. What lies beyond is not the contacts' business.
+///
+/// What friction asks for holds at the end of the substep, when the arms have turned: points swing by `h·ω × (ω × r)`. Without
+/// it what is carried round on a turntable would drift outwards. Along the normal nothing is added: where two edges cross,
+/// the point that touches is of neither body.
 #[inline(always)]
 pub(crate) fn begin<L: Lanes>(bundle: &mut Bundle, velocities: &mut [Row], [margin, rate]: [f32; 2]) {
     for part in 0..LANES / L::WIDTH {
+        let frame = Frame::<L>::load(bundle, part);
+        let a = L::gather(velocities, indices(&bundle.a, part, L::WIDTH));
+        let b = L::gather(velocities, indices(&bundle.b, part, L::WIDTH));
+        let (spin_a, spin_b) = (frame.inward(angular(&a)), frame.inward(angular(&b)));
+        let substep = L::splat(1.0 / rate);
         let horizon = line::<L>(bundle, field::HORIZON, part);
         let never = L::splat(-1e30);
         for point in 0..bundle.points {
@@ -172,9 +181,24 @@ pub(crate) fn begin<L: Lanes>(bundle: &mut Bundle, velocities: &mut [Row], [marg
             let least = L::select_greater(separation, horizon, [never, least]);
             least.store(&mut bundle.lines[at(field::LEAST)], part);
         }
+        let turning = |arm: usize, roundness: L| {
+            let arm = vector::<L>(bundle, arm, part);
+            Vector::new(arm.x, arm.y, arm.z + roundness)
+        };
+        let arm_a = turning(field::FRICTION_ARM_A, -line::<L>(bundle, field::ROUNDNESS, part));
+        let arm_b = turning(field::FRICTION_ARM_B, line::<L>(bundle, field::ROUNDNESS + 1, part));
+        let swing = (swing(spin_b, arm_b) - swing(spin_a, arm_a)).scaled(substep);
+        swing.x.store(&mut bundle.lines[field::SWING], part);
+        swing.y.store(&mut bundle.lines[field::SWING + 1], part);
         let impulses = field::IMPULSES.map(|impulse| line(bundle, impulse, part));
         apply::<L>(bundle, velocities, &impulses, part);
     }
+}
+
+/// Centripetal acceleration `ω × (ω × r)`.
+#[inline(always)]
+fn swing<L: Lanes>(spin: Vector<L>, arm: Vector<L>) -> Vector<L> {
+    spin.scaled(spin.dot(arm)) - arm.scaled(spin.dot(spin))
 }
 
 /// The work (J) that the impulses of each lane do on bodies that get from the velocities `before` to those `after`.
@@ -389,7 +413,8 @@ impl<L: Lanes> Motion<L> {
         let slip = self.relative + self.spin_b.cross(arm_b) - self.spin_a.cross(arm_a);
         let mass = line::<L>(bundle, field::FRICTION_MASS, part);
         let before = [line::<L>(bundle, field::FRICTION, part), line::<L>(bundle, field::FRICTION + 1, part)];
-        let (x, y) = (before[0] - mass * slip.x, before[1] - mass * slip.y);
+        let swing = [line::<L>(bundle, field::SWING, part), line::<L>(bundle, field::SWING + 1, part)];
+        let (x, y) = (before[0] - mass * (slip.x + swing[0]), before[1] - mass * (slip.y + swing[1]));
         let size = (x * x + y * y).sqrt();
         let most = line::<L>(bundle, field::STATIC_FRICTION, part) * self.pressure;
         let sliding = line::<L>(bundle, field::DYNAMIC_FRICTION, part) * self.pressure;

@@ -187,8 +187,8 @@ impl Island {
             unknown(along(normal, arms), get(at(field::LEAST)), point);
         }
         let arms = [outward(vector(field::FRICTION_ARM_A)), outward(vector(field::FRICTION_ARM_B))];
-        unknown(along(first, arms), 0.0, POINTS);
-        unknown(along(second, arms), 0.0, POINTS + 1);
+        unknown(along(first, arms), -get(field::SWING), POINTS);
+        unknown(along(second, arms), -get(field::SWING + 1), POINTS + 1);
         unknown([join(DVec3::ZERO, -normal), join(DVec3::ZERO, normal)], 0.0, POINTS + 2);
         self.contacts.push(Contact {
             static_friction: get(field::STATIC_FRICTION),

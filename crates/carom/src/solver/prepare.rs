@@ -127,6 +127,8 @@ pub(crate) fn lane(
     put(field::STATIC_FRICTION, terms.surface.static_friction);
     put(field::DYNAMIC_FRICTION, terms.surface.dynamic_friction);
     put(field::HORIZON, terms.horizon);
+    put(field::ROUNDNESS, sides[0].roundness);
+    put(field::ROUNDNESS + 1, sides[1].roundness);
     lane
 }
 
