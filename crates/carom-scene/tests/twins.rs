@@ -247,7 +247,6 @@ fn every_kind_of_shape_stays_on_every_kind() {
 }
 
 #[test]
-#[ignore = "a box of triangles is thrown off a box, a cylinder and a hull in the first step, with 100 m/s to 1000 m/s"]
 fn a_box_of_triangles_stays_on_flat_faces() {
     check(THROWN);
 }

@@ -85,7 +85,7 @@ fn a_box_over_an_edge_falls_only_with_its_centre_beyond_it() {
 }
 
 #[test]
-#[ignore = "a box that tips over an edge sinks 1 mm into it and strikes it again and again: 5 % of its energy are gone at 28°"]
+#[ignore = "a box that tips over an edge sinks 1 mm into it"]
 fn a_box_that_tips_over_an_edge_keeps_its_energy() {
     let mut world = World::new();
     let table = Collider::new(Shape::cuboid(10.0, 2.0, 10.0)).at(-5.0, -1.0, 0.0);
