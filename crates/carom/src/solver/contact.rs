@@ -154,7 +154,7 @@ pub(crate) fn measure<L: Lanes>(bundle: &mut Bundle, drifts: &[Row]) {
     }
 }
 
-/// Starts a substep of `1/rate` seconds: what each point asks for, and the impulses of the substep before, which act again.
+/// Starts a substep of `1/rate` seconds: what each point asks for, with bodies that nothing has pushed yet.
 ///
 /// A point that touches, up to a gap of `margin`, may part and not close: to close so small a gap would ask for a velocity that the
 /// next substep has to stop, and a stack would rock on that for ever. One further away, up to the contact's horizon, may
@@ -164,7 +164,7 @@ pub(crate) fn measure<L: Lanes>(bundle: &mut Bundle, drifts: &[Row]) {
 /// it what is carried round on a turntable would drift outwards. Along the normal nothing is added: where two edges cross,
 /// the point that touches is of neither body.
 #[inline(always)]
-pub(crate) fn begin<L: Lanes>(bundle: &mut Bundle, velocities: &mut [Row], [margin, rate]: [f32; 2]) {
+pub(crate) fn begin<L: Lanes>(bundle: &mut Bundle, velocities: &[Row], [margin, rate]: [f32; 2]) {
     for part in 0..LANES / L::WIDTH {
         let frame = Frame::<L>::load(bundle, part);
         let a = L::gather(velocities, indices(&bundle.a, part, L::WIDTH));
@@ -190,6 +190,13 @@ pub(crate) fn begin<L: Lanes>(bundle: &mut Bundle, velocities: &mut [Row], [marg
         let swing = (swing(spin_b, arm_b) - swing(spin_a, arm_a)).scaled(substep);
         swing.x.store(&mut bundle.lines[field::SWING], part);
         swing.y.store(&mut bundle.lines[field::SWING + 1], part);
+    }
+}
+
+/// Lets the impulses of the substep before act again.
+#[inline(always)]
+pub(crate) fn resume<L: Lanes>(bundle: &Bundle, velocities: &mut [Row]) {
+    for part in 0..LANES / L::WIDTH {
         let impulses = field::IMPULSES.map(|impulse| line(bundle, impulse, part));
         apply::<L>(bundle, velocities, &impulses, part);
     }

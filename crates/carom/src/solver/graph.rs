@@ -264,6 +264,7 @@ impl Graph {
         let limits = [margin as f32, (1.0 / substep) as f32];
         let before = velocities.to_vec();
         self.each_bundle(|bundle| contact::begin::<Wide>(bundle, velocities, limits));
+        self.each_bundle(|bundle| contact::resume::<Wide>(bundle, velocities));
         self.find_islands(velocities.len());
         self.refuse_gains(&before, velocities, lively);
     }

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::solver::bundle::field;
-use crate::solver::contact::{begin, nudge};
+use crate::solver::contact::{begin, nudge, resume};
 use crate::solver::lanes::{LANES, Line};
 
 type Wide = Portable<4>;
@@ -42,7 +42,8 @@ fn begin_sweep_and_nudge_keep_the_momentum_of_two_free_bodies() {
         let start = problem.rows();
         let mut rows = start.clone();
         for bundle in &mut bundles {
-            begin::<Wide>(bundle, &mut rows, [MARGIN as f32, 240.0]);
+            begin::<Wide>(bundle, &rows, [MARGIN as f32, 240.0]);
+            resume::<Wide>(bundle, &mut rows);
         }
         assert_kept(&problem, &start, &rows, 10.0);
         for _ in 0..3 {

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::solver::bundle::field;
-use crate::solver::contact::{begin, measure, nudge, sweep_normals};
+use crate::solver::contact::{begin, measure, nudge, resume, sweep_normals};
 use crate::solver::lanes::{LANES, Lanes, Line};
 
 /// A full bundle between 16 bodies and the world, a `share` of whose lanes is empty.
@@ -40,7 +40,8 @@ fn run<L: Lanes>(
     let (mut bundle, mut rows) = (bundle.clone(), rows.to_vec());
     let mut displacements = rows.clone();
     measure::<L>(&mut bundle, drifts);
-    begin::<L>(&mut bundle, &mut rows, [MARGIN as f32, 240.0]);
+    begin::<L>(&mut bundle, &rows, [MARGIN as f32, 240.0]);
+    resume::<L>(&bundle, &mut rows);
     for _ in 0..3 {
         sweep::<L>(&mut bundle, &mut rows);
         nudge::<L>(&mut bundle, &mut rows, changes);
@@ -90,7 +91,8 @@ fn empty_lanes_change_nothing() {
             let mut alone = Bundle::EMPTY;
             alone.write(random.below(LANES), indices, &values);
             measure::<Portable<4>>(&mut alone, &drifts);
-            begin::<Portable<4>>(&mut alone, &mut apart, [MARGIN as f32, 240.0]);
+            begin::<Portable<4>>(&mut alone, &apart, [MARGIN as f32, 240.0]);
+            resume::<Portable<4>>(&alone, &mut apart);
             for _ in 0..3 {
                 sweep::<Portable<4>>(&mut alone, &mut apart);
             }
@@ -98,7 +100,8 @@ fn empty_lanes_change_nothing() {
         let mut together = rows.clone();
         let mut whole = bundle.clone();
         measure::<Portable<4>>(&mut whole, &drifts);
-        begin::<Portable<4>>(&mut whole, &mut together, [MARGIN as f32, 240.0]);
+        begin::<Portable<4>>(&mut whole, &together, [MARGIN as f32, 240.0]);
+        resume::<Portable<4>>(&whole, &mut together);
         for _ in 0..3 {
             sweep::<Portable<4>>(&mut whole, &mut together);
         }

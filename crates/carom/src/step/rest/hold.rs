@@ -159,7 +159,7 @@ const CAPTURED: f64 = 8.0;
 /// A body rests on something if contacts push it by more than this share of what gravity does, and is driven if its velocity
 /// changes by more than the second.
 const SUPPORTED: f64 = 0.5;
-const DRIVEN: f64 = 0.002;
+const DRIVEN: f64 = 0.01;
 
 /// Rest capture: takes a little of what a supported body has near the rest threshold. Vanishes without gravity.
 fn capture(bodies: &Bodies, row: usize, change: &mut [DVec3; 2], law: RestLaw) {
