@@ -30,6 +30,7 @@ mod polytope;
 mod round;
 mod round_box;
 mod round_hull;
+mod round_side;
 mod segment;
 
 pub use manifold::{ContactPoint, Manifold};

@@ -1,8 +1,9 @@
 //! Balls and capsules against a cuboid. The round shape is `a`; everything here happens in the cuboid's frame.
 
 use super::cuboid::{self, Cuboid};
-use super::manifold::{ContactPoint, Manifold};
+use super::manifold::Manifold;
 use super::round::Round;
+use super::round_side::{OverSide, RoundSide};
 use super::segment::{Segment, outside};
 use super::{FLAT, ROUNDING};
 use crate::math::DVec3;
@@ -39,28 +40,16 @@ pub(crate) fn manifold(round: &Round, cuboid: &Cuboid, margin: f64) -> Option<Ma
     if nearest.distance - round.radius > margin {
         return None;
     }
-    let contact = |on_core: DVec3, distance: f64, feature_b: Feature| ContactPoint {
-        point: on_core - nearest.outward * (0.5 * (distance + round.radius)),
-        separation: distance - round.radius,
-        feature_a: Feature::Surface,
-        feature_b,
+    let side = RoundSide {
+        radius: round.radius,
+        outward: nearest.outward,
+        tolerance: 10.0 * rounding(&core, cuboid.half),
+        margin,
     };
-    let mut manifold = Manifold::new(-nearest.outward);
     let stretch = stretch_over_face(&core, cuboid.half, nearest.outward);
-    // Where the closest point is a corner beside the face, the stretch misses it.
-    let tolerance = 10.0 * rounding(&core, cuboid.half);
-    let is_nearest = |end: &FaceEnd| end.distance <= nearest.distance + tolerance;
-    if let Some(ends) = stretch.filter(|ends| ends.iter().any(is_nearest)) {
-        for end in ends {
-            let distance = if is_nearest(&end) { nearest.distance } else { end.distance };
-            if distance - round.radius <= margin {
-                manifold.push(contact(end.on_core, distance, end.feature));
-            }
-        }
-    } else {
-        let feature = cuboid::feature_towards(nearest.outward);
-        manifold.push(contact(nearest.on_core, nearest.distance, feature));
-    }
+    let feature = cuboid::feature_towards(nearest.outward);
+    let (on_core, distance) = (nearest.on_core, nearest.distance);
+    let manifold = side.manifold(OverSide { on_core, distance, feature }, stretch);
     Some(manifold.placed(&cuboid.pose))
 }
 
@@ -124,21 +113,12 @@ fn way_out(core: &Segment, half_box: DVec3) -> Nearest {
     best
 }
 
-/// An end of the stretch of a core that lies over a face.
-struct FaceEnd {
-    on_core: DVec3,
-    /// From the face to the core along the normal.
-    distance: f64,
-    /// The face, or the edge of it where the core reaches beyond.
-    feature: Feature,
-}
-
 /// The two ends of the part of `core` that lies over the face which `outward` leaves almost at a right angle.
 ///
 /// "Over" is meant along `outward`: the core's point p has the foot f = p − g·outward on the face, and g is its distance.
 /// Both are linear in the core's parameter, so the part is found by clipping against the face's four sides (Liang
 /// and Barsky 1984). With an edge closest, `outward` leans a little, and the foot of the closest point is on that edge.
-fn stretch_over_face(core: &Segment, half_box: DVec3, outward: DVec3) -> Option<[FaceEnd; 2]> {
+fn stretch_over_face(core: &Segment, half_box: DVec3, outward: DVec3) -> Option<[OverSide; 2]> {
     let axis = cuboid::main_axis(outward);
     if core.half == DVec3::ZERO || outward[axis].abs() < FLAT {
         return None;
@@ -173,7 +153,7 @@ fn stretch_over_face(core: &Segment, half_box: DVec3, outward: DVec3) -> Option<
     if high.0 - low.0 <= 1e-6 {
         return None;
     }
-    Some([low, high].map(|(s, feature)| FaceEnd {
+    Some([low, high].map(|(s, feature)| OverSide {
         on_core: core.at(s),
         distance: distance(core.at(s)),
         feature,

@@ -1,9 +1,10 @@
 //! Balls and capsules against a hull. The round shape is `a`; everything here happens in the hull's frame.
 
 use super::closest::closest;
-use super::manifold::{ContactPoint, Manifold};
+use super::manifold::Manifold;
 use super::polytope::Polytope;
 use super::round::Round;
+use super::round_side::{OverSide, RoundSide};
 use super::segment::Segment;
 use super::{FLAT, ROUNDING};
 use crate::math::DVec3;
@@ -34,27 +35,15 @@ pub(crate) fn manifold(round: &Round, hull: &Polytope, margin: f64) -> Option<Ma
     if nearest.distance - round.radius > margin {
         return None;
     }
-    let contact = |on_core: DVec3, distance: f64, feature_b: Feature| ContactPoint {
-        point: on_core - nearest.outward * (0.5 * (distance + round.radius)),
-        separation: distance - round.radius,
-        feature_a: Feature::Surface,
-        feature_b,
+    let side = RoundSide {
+        radius: round.radius,
+        outward: nearest.outward,
+        tolerance: 10.0 * rounding(&core, hull),
+        margin,
     };
-    let mut manifold = Manifold::new(-nearest.outward);
-    // Where the closest point is a corner beside the side, the stretch misses it.
-    let tolerance = 10.0 * rounding(&core, hull);
-    let is_nearest = |end: &SideEnd| end.distance <= nearest.distance + tolerance;
     let stretch = stretch_over_side(&core, hull, nearest.outward);
-    if let Some(ends) = stretch.filter(|ends| ends.iter().any(is_nearest)) {
-        for end in ends {
-            let distance = if is_nearest(&end) { nearest.distance } else { end.distance };
-            if distance - round.radius <= margin {
-                manifold.push(contact(end.on_core, distance, end.feature));
-            }
-        }
-    } else {
-        manifold.push(contact(nearest.on_core, nearest.distance, nearest.feature));
-    }
+    let (on_core, distance, feature) = (nearest.on_core, nearest.distance, nearest.feature);
+    let manifold = side.manifold(OverSide { on_core, distance, feature }, stretch);
     Some(manifold.placed(&hull.pose))
 }
 
@@ -169,21 +158,12 @@ fn way_out(core: &Segment, hull: &Polytope) -> Nearest {
     best
 }
 
-/// An end of the stretch of a core that lies over a side.
-struct SideEnd {
-    on_core: DVec3,
-    /// From the side to the core along the normal.
-    distance: f64,
-    /// The side, or the edge of it where the core reaches beyond.
-    feature: Feature,
-}
-
 /// The two ends of the part of `core` that lies over the side which `outward` leaves almost at a right angle.
 ///
 /// "Over" is meant along `outward`: the core's point p has the foot f = p − g·outward on the side, and g is its distance.
 /// Both are linear in the core's parameter, so the part is found by clipping against the side's edges (Cyrus and Beck
 /// 1978).
-fn stretch_over_side(core: &Segment, hull: &Polytope, outward: DVec3) -> Option<[SideEnd; 2]> {
+fn stretch_over_side(core: &Segment, hull: &Polytope, outward: DVec3) -> Option<[OverSide; 2]> {
     if core.half == DVec3::ZERO {
         return None;
     }
@@ -224,7 +204,7 @@ fn stretch_over_side(core: &Segment, hull: &Polytope, outward: DVec3) -> Option<
     if high.0 - low.0 <= 1e-6 {
         return None;
     }
-    Some([low, high].map(|(s, feature)| SideEnd {
+    Some([low, high].map(|(s, feature)| OverSide {
         on_core: core.at(s),
         distance: distance(core.at(s)),
         feature,
