@@ -8,9 +8,9 @@
 //! (1 + BᵀJᵀDJB) δu = −BᵀJᵀD(Jv − w)        δv = B δu        δλ = −D(J(v + δv) − w)        M δv = Jᵀ δλ
 //! ```
 //!
-//! where `B·Bᵀ = M⁻¹`, in which what cannot move is simply zero, and each row of `D` is [`STIFFNESS`] times its effective mass: two or three rounds leave nothing. Then impulses that pull are
-//! set to zero, those outside Coulomb's cone are put back on it, and the search goes on with the rows that press or stick
-//! now, after some sweeps (as in Silcowitz, Niebe and Erleben 2009, *Projected Gauss–Seidel subspace minimization*).
+//! where `B·Bᵀ = M⁻¹`, in which what cannot move is simply zero, and each row of `D` is [`STIFFNESS`] times its effective mass:
+//! two or three rounds leave nothing. Then impulses that pull are set to zero, those outside Coulomb's cone are put back on
+//! it, and the search goes on with the rows that press or stick now, after some sweeps (as in Silcowitz, Niebe and Erleben 2009, *Projected Gauss–Seidel subspace minimization*).
 //!
 //! The matrix has a block of six for each body and one for each pair in contact; it is factored in an order of least degree,
 //! without pivots, as it is positive definite.
@@ -122,6 +122,10 @@ fn join(linear: DVec3, angular: DVec3) -> Vector {
     [linear.x, linear.y, linear.z, angular.x, angular.y, angular.z]
 }
 
+fn velocity_of(row: &Row) -> Vector {
+    std::array::from_fn(|axis| f64::from(row.0[axis]))
+}
+
 /// `B` with `B·Bᵀ = A`, for a positive semidefinite `A`: Cholesky's factor, without the columns that are nothing but rounding.
 fn root(a: &DMat3) -> DMat3 {
     const ROUNDING: f64 = 1e-12;
@@ -154,10 +158,6 @@ impl Island {
         let second = normal.cross(first);
         let outward = |v: DVec3| first * v.x + second * v.y + normal * v.z;
         let rows = [bundle.a[lane], bundle.b[lane]];
-        let velocity_of = |row: u32| -> Vector {
-            let values = velocities[row as usize].0;
-            std::array::from_fn(|axis| f64::from(values[axis]))
-        };
         let numbers = rows.map(|row| mobility(row).map(|it| self.number(row, it, velocities)));
 
         let mut unknown = |directions: [Vector; 2], wanted: f64, number: usize| {
@@ -173,7 +173,7 @@ impl Island {
             let impulse = get(field::IMPULSES[number]);
             let held = [0, 1].map(|side| match numbers[side] {
                 Some(_) => 0.0,
-                None => dot(&directions[side], &velocity_of(rows[side])),
+                None => dot(&directions[side], &velocity_of(&velocities[rows[side] as usize])),
             });
             let wanted = wanted - held[0] - held[1];
             self.unknowns.push(Unknown { pushes, wanted, mass, impulse, is_active: false });
@@ -199,8 +199,7 @@ impl Island {
 
     fn number(&mut self, row: u32, mobility: Mobility, velocities: &[Row]) -> usize {
         self.movers.iter().position(|mover| mover.row == row).unwrap_or_else(|| {
-            let values = velocities[row as usize].0.map(f64::from);
-            let velocity = std::array::from_fn(|axis| values[axis]);
+            let velocity = velocity_of(&velocities[row as usize]);
             let roots = (mobility.inverse_mass.sqrt(), root(&mobility.inverse_inertia));
             self.movers.push(Mover { row, velocity, roots });
             self.movers.len() - 1

@@ -109,14 +109,12 @@ impl<'a> Events<'a> {
                 self.pairs[pair].now.asked_until = span.from;
             }
         }
-        let mut index = 0;
-        while index < self.pairs.len() {
+        for index in 0..self.pairs.len() {
             let pair = &self.pairs[index];
             let is_quiet = pair.rests && self.rest.is_closed(pair);
             if pair.now.asked_until < span.until && !pair.sensor && !is_quiet {
                 self.ask(index, span);
             }
-            index += 1;
         }
         while let Some(Reverse(event)) = self.queue.peek().copied() {
             if event.time > span.until {
@@ -194,11 +192,10 @@ impl<'a> Events<'a> {
             self.pairs[index].now.hits += 1;
             let surface = self.pairs[index].surface;
             let stays = -touch.closing_speed * surface.restitution <= touch.rest_speed;
-            let parts = |approach: Option<Approach>| {
-                approach.is_some_and(|approach| approach.parts(&touch.contact, touch.normal))
-            };
             self.impacts.extend(strike(self.bodies, colliders, &touch, &surface, time));
-            if !rests && stays && !parts(Approach::of(self.bodies, colliders, self.law)) {
+            let parts = Approach::of(self.bodies, colliders, self.law)
+                .is_some_and(|approach| approach.parts(&touch.contact, touch.normal));
+            if !rests && stays && !parts {
                 self.rest.take(self.bodies, self.pairs, index, (self.law, span));
             }
             for row in rows {

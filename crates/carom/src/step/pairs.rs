@@ -22,8 +22,8 @@ pub(crate) struct Pair {
     /// Whether the pair rests: it has supports then.
     pub rests: bool,
     pub supports: Vec<Support>,
-    /// A separation that the two had, less what their bodies' paths were worth by then (m); they are at least `clearance`
-    /// plus their present [`Pair::path`] less apart.
+    /// A separation that the two had, plus how far their bodies had moved by then (m): they are at least this less
+    /// their present [`Pair::path`] apart.
     clearance: f64,
     /// What happens to it in this step.
     pub now: Present,

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::math::DMat3;
+use crate::solver::direct::Mobility;
 use crate::solver::tests::Random;
 
 /// A contact as the model knows it; its number is written into its lane.

@@ -1,5 +1,6 @@
 //! Holds the tables of a graph to each other. For tests; slow.
 
+use super::islands::NONE;
 use super::*;
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -2,7 +2,7 @@
 
 use super::renew::{DRIFT, DRIFT_WITHIN};
 use super::{Rest, Span};
-use crate::bodies::{Bodies, WORLD_ROW};
+use crate::bodies::Bodies;
 use crate::flight::Influence;
 use crate::impacts::time_of_impact::RestLaw;
 use crate::math::{DVec3, rotation_from_vector};
@@ -31,6 +31,20 @@ const BUDGET: u32 = 40_000;
 /// Share of an overlap that is pushed out at the end of a step, and of the contact margin that is left.
 const PUSH_OUT: f32 = 0.5;
 const LEFT_IN: f64 = 0.1;
+
+/// Where the sweeps change a body's velocity by less than this share of what gravity does, the forces on it persist.
+const STEADY: f64 = 0.05;
+
+/// What rests on something with friction, is driven by nothing and moves no faster than [`CAPTURED`] rest thresholds loses
+/// this share of its speed in a second, fading out towards that speed. Rolling has no friction of its own: without it a ball would roll about
+/// a pile for ever at a speed that gravity and the substep hardly tell from rest.
+const RESISTANCE: f64 = 2.0;
+const CAPTURED: f64 = 8.0;
+
+/// A body rests on something if contacts push it by more than this share of what gravity does, and is driven if its velocity
+/// changes by more than the second.
+const SUPPORTED: f64 = 0.5;
+const DRIVEN: f64 = 0.01;
 
 impl Rest {
     /// Finds what holds the bodies that rest on something during `span`, and gives them their paths; returns the rows whose
@@ -142,24 +156,10 @@ impl Rest {
     }
 }
 
-/// Where the sweeps change a body's velocity by less than this share of what gravity does, the forces on it persist.
-const STEADY: f64 = 0.05;
-
 fn difference(after: &Row, before: &Row) -> [DVec3; 2] {
     let change = |index: usize| f64::from(after.0[index] - before.0[index]);
     [DVec3::new(change(0), change(1), change(2)), DVec3::new(change(3), change(4), change(5))]
 }
-
-/// What rests on something with friction, is driven by nothing and moves no faster than [`CAPTURED`] rest thresholds loses this share of its
-/// speed in a second, fading out towards that speed. Rolling has no friction of its own: without it a ball would roll about
-/// a pile for ever at a speed that gravity and the substep hardly tell from rest.
-const RESISTANCE: f64 = 2.0;
-const CAPTURED: f64 = 8.0;
-
-/// A body rests on something if contacts push it by more than this share of what gravity does, and is driven if its velocity
-/// changes by more than the second.
-const SUPPORTED: f64 = 0.5;
-const DRIVEN: f64 = 0.01;
 
 /// Rest capture: takes a little of what a supported body has near the rest threshold. Vanishes without gravity.
 fn capture(bodies: &Bodies, row: usize, change: &mut [DVec3; 2], law: RestLaw) {
@@ -186,5 +186,4 @@ fn follow(bodies: &mut Bodies, row: usize, change: [DVec3; 2], (substep, steady)
         state.angular_momentum += change[1];
         Influence::default()
     };
-    debug_assert!(row != WORLD_ROW);
 }

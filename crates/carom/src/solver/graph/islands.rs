@@ -1,0 +1,120 @@
+//! Islands: which contacts hang together, and how fast their bodies move against each other.
+//!
+//! They are found anew only when contacts have come or gone.
+
+use super::{Color, Graph};
+use crate::solver::bundle::Bundle;
+use crate::solver::lanes::{LANES, Row};
+
+/// Which contacts hang together.
+#[derive(Default)]
+pub(super) struct Islands {
+    pub is_stale: bool,
+    /// The island of each row.
+    pub of_row: Vec<u32>,
+    /// Contacts and bodies in each island.
+    pub sizes: Vec<u32>,
+    pub bodies: Vec<usize>,
+    /// For how many more substeps each island is not worth a direct solve: the last one led nowhere.
+    pub pauses: Vec<u32>,
+}
+
+/// No island: the world and what is driven.
+pub(super) const NONE: u32 = u32::MAX;
+
+impl Islands {
+    /// The island of a row's body.
+    pub fn of(&self, row: u32) -> Option<usize> {
+        self.of_row.get(row as usize).filter(|&&island| island != NONE).map(|&island| island as usize)
+    }
+}
+
+/// The box around the velocities of an island's bodies.
+#[derive(Clone, Copy)]
+pub(super) struct Spread {
+    low: [f32; 3],
+    high: [f32; 3],
+}
+
+impl Spread {
+    pub const NONE: Spread = Spread { low: [f32::MAX; 3], high: [f32::MIN; 3] };
+
+    pub fn include(&mut self, velocity: &Row) {
+        for axis in 0..3 {
+            self.low[axis] = self.low[axis].min(velocity.0[axis]);
+            self.high[axis] = self.high[axis].max(velocity.0[axis]);
+        }
+    }
+
+    pub fn width(&self) -> f32 {
+        (0..3).map(|axis| self.high[axis] - self.low[axis]).fold(0.0, f32::max)
+    }
+}
+
+impl Graph {
+    /// The island of a lane.
+    pub(super) fn island_of(&self, bundle: &Bundle, lane: usize) -> Option<usize> {
+        self.islands.of(bundle.a[lane]).or(self.islands.of(bundle.b[lane]))
+    }
+
+    /// How fast the bodies of each island move against each other, m/s.
+    pub(super) fn spreads(&self, velocities: &[Row]) -> Vec<f32> {
+        let mut spreads = vec![Spread::NONE; self.islands.sizes.len()];
+        for bundle in self.colors.iter().flat_map(|color| &color.bundles) {
+            for lane in 0..LANES {
+                if let Some(island) = self.island_of(bundle, lane) {
+                    spreads[island].include(&velocities[bundle.a[lane] as usize]);
+                    spreads[island].include(&velocities[bundle.b[lane] as usize]);
+                }
+            }
+        }
+        spreads.iter().map(Spread::width).collect()
+    }
+
+    /// Finds the islands, if contacts have come or gone since.
+    pub(super) fn find_islands(&mut self, rows: usize) {
+        if !self.islands.is_stale {
+            return;
+        }
+        let mut movable = Color::default();
+        for color in &self.colors {
+            movable.taken.resize(movable.taken.len().max(color.taken.len()), 0);
+            movable.taken.iter_mut().zip(&color.taken).for_each(|(all, word)| *all |= word);
+        }
+        let is_movable = |row: usize| movable.is_taken(row as u32);
+        let mut root: Vec<u32> = (0..rows as u32).collect();
+        fn find(root: &mut [u32], mut row: u32) -> u32 {
+            while root[row as usize] != row {
+                root[row as usize] = root[root[row as usize] as usize];
+                row = root[row as usize];
+            }
+            row
+        }
+        let lanes = || {
+            let bundles = self.colors.iter().flat_map(|color| &color.bundles);
+            bundles.flat_map(|bundle| bundle.a.iter().copied().zip(bundle.b))
+        };
+        for (a, b) in lanes().filter(|&(a, b)| is_movable(a as usize) && is_movable(b as usize)) {
+            let (a, b) = (find(&mut root, a), find(&mut root, b));
+            root[a.max(b) as usize] = a.min(b);
+        }
+        let mut of_row = vec![NONE; rows];
+        let mut sizes = Vec::new();
+        for (a, b) in lanes() {
+            let Some(row) = [a, b].into_iter().find(|&row| is_movable(row as usize)) else { continue };
+            let top = find(&mut root, row) as usize;
+            if of_row[top] == NONE {
+                of_row[top] = sizes.len() as u32;
+                sizes.push(0);
+            }
+            sizes[of_row[top] as usize] += 1;
+        }
+        for row in 0..rows {
+            of_row[row] = if is_movable(row) { of_row[find(&mut root, row as u32) as usize] } else { NONE };
+        }
+        let mut bodies = vec![0; sizes.len()];
+        of_row.iter().filter(|&&island| island != NONE).for_each(|&island| bodies[island as usize] += 1);
+        let pauses = vec![0; sizes.len()];
+        self.islands = Islands { is_stale: false, of_row, sizes, bodies, pauses };
+    }
+}
