@@ -51,7 +51,7 @@ pub(crate) fn separation(a: &Cuboid, b: &Cuboid) -> f64 {
 /// The contacts along the axis of the widest gap.
 ///
 /// A face's axis gives the overlap of two faces, seen along it. So does an edge pair's if it is almost at a right angle
-/// to a face of each box: a box that rests a hair askew has four points, not one. Any other edge pair gives the one
+/// to a face of either box: a box that rests a hair askew on a face or an edge has several points, not one. Any other edge pair gives the one
 /// point where the edges come closest. If the boxes are apart and none of this is where they are closest, the contact
 /// is between their closest points.
 pub(crate) fn manifold(a: &Cuboid, b: &Cuboid, margin: f64) -> Option<Manifold> {
@@ -174,9 +174,9 @@ impl Pair {
         best
     }
 
-    /// Whether each box has a face almost at a right angle to `normal`.
+    /// Whether a box has a face almost at a right angle to `normal`.
     fn is_flat(&self, normal: DVec3) -> bool {
-        [&self.a, &self.b].iter().all(|block| block.components(normal).abs().max_element() >= FLAT)
+        [&self.a, &self.b].iter().any(|block| block.components(normal).abs().max_element() >= FLAT)
     }
 
     /// The contact of the two edges that `axis` comes from, if they cross, seen along it.

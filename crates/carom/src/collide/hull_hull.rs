@@ -284,7 +284,7 @@ impl<'a> Pair<'a> {
     }
 
     /// A side's axis gives the overlap of two sides, seen along it. So does an edge pair's if it is almost at a right angle
-    /// to a side of each: what rests a hair askew has several points, not one. Any other edge pair gives the one point where
+    /// to a side of either: what rests a hair askew on a side or an edge has several points, not one. Any other edge pair gives the one point where
     /// the edges come closest. Where the closest points are closer than all of this, the contact is between them.
     fn contacts(&self, closest: &Closest, margin: f64) -> Option<Manifold> {
         let Some(axis) = self.best_axis(closest) else {
@@ -297,7 +297,7 @@ impl<'a> Pair<'a> {
         if let Source::Edges(edge_a, edge_b) = axis.source {
             let normal_a = self.a.shape.planes[side_a as usize].normal;
             let normal_b = self.b.turn * self.b.shape.planes[side_b as usize].normal;
-            if normal_a.dot(axis.normal) < FLAT || -normal_b.dot(axis.normal) < FLAT {
+            if normal_a.dot(axis.normal) < FLAT && -normal_b.dot(axis.normal) < FLAT {
                 return Some(Manifold::single(axis.normal, self.crossing(&axis, edge_a, edge_b)));
             }
         }
