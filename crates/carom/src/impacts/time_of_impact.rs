@@ -29,6 +29,11 @@ impl RestLaw {
         0.5 * self.gravity.length() * self.substep * self.substep + 1e-6
     }
 
+    /// Overlap of a resting pair that is left as it is, m.
+    pub fn overlap_left(&self) -> f64 {
+        0.1 * self.contact_margin()
+    }
+
     /// The rest threshold of what gravity alone presses against something that does not move, m/s.
     pub fn rest_speed(&self) -> f64 {
         0.5 * self.gravity.length() * self.substep
@@ -157,7 +162,8 @@ impl<'a> Approach<'a> {
     }
 
     /// Whether the two rest against each other at `time`: they are so near, and close or part so slowly, that what presses
-    /// them together would let them touch no faster than the rest threshold, or already does.
+    /// them together would let them touch no faster than the rest threshold, or already does. Two that overlap do, however fast
+    /// they part: contacts only push, and would be missed where something else pushes the two deeper.
     pub fn rests(&self, time: f64) -> bool {
         let mut manifolds = Vec::new();
         self.manifolds(time, self.law.contact_margin(), &mut manifolds);
@@ -173,8 +179,9 @@ impl<'a> Approach<'a> {
                 if closing > rest_speed || (gap > self.tolerance && speed_at_touch > rest_speed) {
                     return false;
                 }
-                is_near |= closing >= -rest_speed
-                    && !(closing <= self.noise && self.parts(contact, manifold.normal));
+                is_near |= contact.separation < -self.law.overlap_left()
+                    || (closing >= -rest_speed
+                        && !(closing <= self.noise && self.parts(contact, manifold.normal)));
             }
         }
         is_near
