@@ -143,7 +143,7 @@ fn inverse_of(response: f64) -> f64 {
 }
 
 /// Where friction acts: the middle of the points, those that touch counting most.
-fn middle(points: &[ContactPoint], margin: f64) -> DVec3 {
+pub(crate) fn middle(points: &[ContactPoint], margin: f64) -> DVec3 {
     let least = points.iter().map(|point| point.separation).fold(f64::INFINITY, f64::min);
     let weight = |point: &ContactPoint| {
         let nearness = margin / (margin + (point.separation - least.max(0.0)).max(0.0));

@@ -6,7 +6,6 @@
 use crate::bodies::{Bodies, WORLD_ROW};
 use crate::collide::Manifold;
 use crate::material::Surface;
-use crate::math::DVec3;
 use crate::report::Feature;
 use crate::solver::graph::ContactId;
 use crate::step::broad_phase::ColliderPair;
@@ -33,7 +32,6 @@ pub(crate) struct Pair {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Support {
     pub contact: ContactId,
-    pub normal: DVec3,
     features: [(Feature, Feature); 4],
     count: usize,
 }
@@ -44,7 +42,7 @@ impl Support {
         for (entry, point) in features.iter_mut().zip(manifold.points()) {
             *entry = (point.feature_a, point.feature_b);
         }
-        Self { contact, normal: manifold.normal, features, count: manifold.points().len() }
+        Self { contact, features, count: manifold.points().len() }
     }
 
     /// What touches at each point.

@@ -12,6 +12,7 @@
 //! Contacts are hard: they need no overlap to press, so that nothing sinks under a load.
 
 mod hold;
+mod remember;
 mod renew;
 #[cfg(test)]
 mod validate;

@@ -3,19 +3,18 @@
 //! A body's contacts stay as they are while it lies still: what it moves meanwhile is measured from its *anchor*, the pose that
 //! it had when they were last renewed. Impulses go over from the old contacts to the new ones, by the features that touch.
 
+use super::remember::remembered;
 use super::{Rest, Span, horizon};
 use crate::bodies::{Bodies, ColliderRow};
-use crate::collide::Manifold;
 use crate::impacts::time_of_impact::{Approach, RestLaw};
 use crate::math::{DMat3, DVec3};
-use crate::solver::bundle::field;
-use crate::solver::prepare::{Remembered, Side, Terms, lane};
+use crate::solver::prepare::{Side, Terms, lane};
 use crate::step::pairs::{Pair, Pairs, Support};
 
 /// Motion of a body, as a share of its smallest collider's reach or in radians, after which its contacts are renewed: at
 /// the start of a step, and within one.
 pub(super) const DRIFT: f64 = 1e-3;
-pub(super) const DRIFT_WITHIN: f64 = 2e-2;
+pub(super) const DRIFT_WITHIN: f64 = 5e-3;
 
 impl Rest {
     /// Looks at a pair closely: new geometry, old impulses. A pair that is out of reach rests no more.
@@ -55,14 +54,16 @@ impl Rest {
         };
         let terms = Terms { surface: pair.surface, margin, horizon: horizon(pair, grain, law) };
         let old = std::mem::take(&mut pair.supports);
+        manifolds.retain(|manifold| !manifold.points().is_empty());
+        let centers = [a, b].map(|collider| bodies.center_pose(collider).position);
+        let past: Vec<_> = old.iter().map(|support| self.past(support, centers)).collect();
         let lanes: Vec<_> = manifolds
             .iter()
-            .filter(|manifold| !manifold.points().is_empty())
-            .map(|manifold| {
+            .zip(remembered(&past, &manifolds, margin))
+            .map(|(manifold, remembered)| {
                 let normal = manifold.normal;
                 let at = manifold.points()[0].point;
                 let sides = [side(a, normal, at), side(b, -normal, at)];
-                let remembered = self.remembered(&old, manifold);
                 (manifold, lane(normal, manifold.points(), &sides, &terms, &remembered))
             })
             .collect();
@@ -85,43 +86,6 @@ impl Rest {
             self.release(support);
         }
         pair.rests = !pair.supports.is_empty();
-    }
-
-    /// The impulses of the contacts that a manifold follows upon: point by point where the same features touch, else in equal
-    /// parts.
-    fn remembered(&self, old: &[Support], manifold: &Manifold) -> Remembered {
-        let mut remembered = Remembered::default();
-        let mut matched = false;
-        for (entry, point) in remembered.pressure.iter_mut().zip(manifold.points()) {
-            let features = (point.feature_a, point.feature_b);
-            for support in old {
-                if let Some(index) = support.features().iter().position(|&it| it == features) {
-                    *entry =
-                        f64::from(self.graph.get(support.contact, field::of_point(index, field::IMPULSE)));
-                    matched = true;
-                    break;
-                }
-            }
-        }
-        let alike = old.iter().max_by(|x, y| {
-            let likeness = |support: &Support| support.normal.dot(manifold.normal);
-            likeness(x).total_cmp(&likeness(y))
-        });
-        let Some(support) = alike.filter(|support| support.normal.dot(manifold.normal) > 0.9) else {
-            return remembered;
-        };
-        let read = |field: usize| f64::from(self.graph.get(support.contact, field));
-        let axis = |field: usize| DVec3::new(read(field), read(field + 1), read(field + 2));
-        let (first, normal) = (axis(field::TANGENT), axis(field::NORMAL));
-        remembered.friction = first * read(field::FRICTION) + normal.cross(first) * read(field::FRICTION + 1);
-        remembered.twist = read(field::TWIST);
-        if !matched {
-            let count = support.features().len();
-            let total: f64 = (0..count).map(|index| read(field::of_point(index, field::IMPULSE))).sum();
-            let points = manifold.points().len();
-            remembered.pressure[..points].fill(total / points as f64);
-        }
-        remembered
     }
 
     /// Renews the contacts of the bodies that have moved further than `limit` from their anchors.

@@ -1,0 +1,158 @@
+//! Impulses that go over from the contacts of a pair to those that follow upon them.
+//!
+//! Which points a manifold has may change from one moment to the next though hardly anything has moved: another edge
+//! wins by a hair, another four of eight points are kept. What pressed goes on pressing all the same: the new
+//! points start with impulses that push and turn both bodies as the old ones did.
+
+use super::Rest;
+use crate::collide::{ContactPoint, Manifold};
+use crate::math::{DMat3, DVec3, any_tangent};
+use crate::report::Feature;
+use crate::solver::bundle::{POINTS, field};
+use crate::solver::prepare::{Remembered, middle};
+use crate::step::pairs::Support;
+
+/// A manifold follows upon one whose normal makes an angle with its own of at most this cosine.
+const ALIKE: f64 = 0.9;
+
+/// Regularises the search for impulses where the points lie in a line or are one.
+const ROUNDING: f64 = 1e-6;
+
+/// What a manifold exerted.
+pub(super) struct Past {
+    normal: DVec3,
+    points: Vec<PastPoint>,
+    /// Where friction acted, and what it was, N·s.
+    middle: DVec3,
+    friction: DVec3,
+    /// N·m·s
+    twist: f64,
+}
+
+struct PastPoint {
+    features: (Feature, Feature),
+    place: DVec3,
+    /// N·s
+    pressure: f64,
+}
+
+impl Rest {
+    /// What a support exerts on bodies whose centres are at `centers`.
+    pub(super) fn past(&self, support: &Support, centers: [DVec3; 2]) -> Past {
+        let read = |field: usize| f64::from(self.graph.get(support.contact, field));
+        let vector = |field: usize| DVec3::new(read(field), read(field + 1), read(field + 2));
+        let (normal, first) = (vector(field::NORMAL), vector(field::TANGENT));
+        let second = normal.cross(first);
+        let outward = |v: DVec3| first * v.x + second * v.y + normal * v.z;
+        // Both bodies may have moved a little since: half way.
+        let place = |arm_a: usize, arm_b: usize| {
+            0.5 * (centers[0] + outward(vector(arm_a)) + centers[1] + outward(vector(arm_b)))
+        };
+        let point = |(index, &features): (usize, &(Feature, Feature))| {
+            let at = |line: usize| field::of_point(index, line);
+            let place = place(at(field::ARM_A), at(field::ARM_B));
+            PastPoint { features, place, pressure: read(at(field::IMPULSE)) }
+        };
+        Past {
+            normal,
+            points: support.features().iter().enumerate().map(point).collect(),
+            middle: place(field::FRICTION_ARM_A, field::FRICTION_ARM_B),
+            friction: outward(DVec3::new(read(field::FRICTION), read(field::FRICTION + 1), 0.0)),
+            twist: read(field::TWIST),
+        }
+    }
+}
+
+/// The impulses that `manifolds` start from when they follow upon those of the `past`.
+pub(super) fn remembered(past: &[Past], manifolds: &[Manifold], margin: f64) -> Vec<Remembered> {
+    let mut followed: Vec<Vec<&Past>> = vec![Vec::new(); manifolds.len()];
+    for old in past {
+        let shared = |manifold: &Manifold| {
+            manifold.points().iter().filter(|point| old.points.iter().any(|it| it.is_of(point))).count()
+        };
+        let alike = |manifold: &Manifold| old.normal.dot(manifold.normal);
+        let rank = |manifold: &Manifold| (shared(manifold), alike(manifold));
+        let follower = (0..manifolds.len()).filter(|&number| alike(&manifolds[number]) > ALIKE).max_by(
+            |&one, &other| {
+                let (one, other) = (rank(&manifolds[one]), rank(&manifolds[other]));
+                one.0.cmp(&other.0).then(one.1.total_cmp(&other.1))
+            },
+        );
+        if let Some(number) = follower {
+            followed[number].push(old);
+        }
+    }
+    manifolds.iter().zip(&followed).map(|(manifold, past)| follow(past, manifold, margin)).collect()
+}
+
+impl PastPoint {
+    /// Whether it was the same features that touched.
+    fn is_of(&self, point: &ContactPoint) -> bool {
+        self.features == (point.feature_a, point.feature_b)
+    }
+}
+
+/// The impulses that push and turn as those of the `past` did, as well as the points of `manifold` can: those of the same
+/// features; what has pressed at points that are no more goes to the others.
+fn follow(past: &[&Past], manifold: &Manifold, margin: f64) -> Remembered {
+    let points = manifold.points();
+    let mut remembered = Remembered::default();
+    if past.is_empty() || points.is_empty() {
+        return remembered;
+    }
+    let normal = manifold.normal;
+    let middle = middle(points, margin);
+    let mut lost = Vec::new();
+    for old in past.iter().flat_map(|old| &old.points) {
+        match points.iter().position(|point| old.is_of(point)) {
+            Some(index) => remembered.pressure[index] += old.pressure,
+            None => lost.push((old.place, old.pressure)),
+        }
+    }
+    if lost.iter().any(|&(_, pressure)| pressure > 0.0) {
+        let touching = points.iter().filter(|point| point.separation <= margin).count();
+        let limit = if touching > 0 { margin } else { f64::INFINITY };
+        let heirs: Vec<(usize, DVec3)> = points
+            .iter()
+            .enumerate()
+            .filter(|(_, point)| point.separation <= limit)
+            .map(|(index, point)| (index, point.point - middle))
+            .collect();
+        lost.iter_mut().for_each(|(place, _)| *place -= middle);
+        inherit(&lost, &heirs, normal, &mut remembered.pressure);
+    }
+    for old in past {
+        let friction = old.friction - normal * old.friction.dot(normal);
+        remembered.friction += friction;
+        remembered.twist += old.twist + normal.dot((old.middle - middle).cross(friction));
+    }
+    remembered
+}
+
+/// Adds to the pressures of the heirs what pushes and turns as what was lost did: the smallest change that does so, as far as points
+/// can without pulling; none of the push is lost.
+fn inherit(lost: &[(DVec3, f64)], heirs: &[(usize, DVec3)], normal: DVec3, pressure: &mut [f64; POINTS]) {
+    let reach = heirs.iter().map(|(_, arm)| arm.length()).fold(f64::MIN_POSITIVE, f64::max);
+    let first = any_tangent(normal);
+    let second = normal.cross(first);
+    // Push, and turn about both tangents, of a unit impulse. What turned from further out than any heir could is taken to have been there.
+    let wrench = |arm: DVec3| {
+        let arm = (arm / reach).clamp_length_max(1.0);
+        DVec3::new(1.0, arm.dot(first), arm.dot(second))
+    };
+    let lost: DVec3 = lost.iter().map(|&(arm, pressure)| pressure * wrench(arm)).sum();
+    let mut response = DMat3::from_diagonal(DVec3::splat(ROUNDING));
+    for &(_, arm) in heirs {
+        let unit = wrench(arm);
+        response += DMat3::from_cols(unit * unit.x, unit * unit.y, unit * unit.z);
+    }
+    let change = response.inverse() * lost;
+    let before: f64 = pressure.iter().sum();
+    for &(index, arm) in heirs {
+        pressure[index] = (pressure[index] + change.dot(wrench(arm))).max(0.0);
+    }
+    let after: f64 = pressure.iter().sum();
+    if after > 0.0 {
+        pressure.iter_mut().for_each(|pressure| *pressure *= (before + lost.x) / after);
+    }
+}
