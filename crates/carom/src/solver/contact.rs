@@ -240,18 +240,6 @@ pub(crate) fn work<L: Lanes>(bundle: &Bundle, before: &[Row], after: &[Row]) -> 
     work
 }
 
-/// Adds `changes` to the impulses, whether or not contacts can exert them: the next sweep sees to that.
-#[inline(always)]
-pub(crate) fn nudge<L: Lanes>(bundle: &mut Bundle, velocities: &mut [Row], changes: &[Line; field::ROWS]) {
-    for part in 0..LANES / L::WIDTH {
-        let changes = changes.map(|change| L::load(&change, part));
-        for (impulse, change) in field::IMPULSES.into_iter().zip(changes) {
-            (line::<L>(bundle, impulse, part) + change).store(&mut bundle.lines[impulse], part);
-        }
-        apply::<L>(bundle, velocities, &changes, part);
-    }
-}
-
 /// Lets impulses, in the order of [`field::IMPULSES`], act on both bodies.
 #[inline(always)]
 fn apply<L: Lanes>(bundle: &Bundle, velocities: &mut [Row], impulses: &[L; field::ROWS], part: usize) {

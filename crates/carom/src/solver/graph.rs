@@ -268,7 +268,7 @@ impl Graph {
 }
 
 /// Sweeps that push overlaps out.
-const PUSH_SWEEPS: usize = 4;
+const PUSH_SWEEPS: usize = 12;
 
 #[cfg(test)]
 mod tests;

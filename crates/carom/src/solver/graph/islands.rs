@@ -31,22 +31,22 @@ impl Islands {
 
 /// The box around the velocities of an island's bodies.
 #[derive(Clone, Copy)]
-pub(super) struct Spread {
+struct Spread {
     low: [f32; 3],
     high: [f32; 3],
 }
 
 impl Spread {
-    pub const NONE: Spread = Spread { low: [f32::MAX; 3], high: [f32::MIN; 3] };
+    const NONE: Spread = Spread { low: [f32::MAX; 3], high: [f32::MIN; 3] };
 
-    pub fn include(&mut self, velocity: &Row) {
+    fn include(&mut self, velocity: &Row) {
         for axis in 0..3 {
             self.low[axis] = self.low[axis].min(velocity.0[axis]);
             self.high[axis] = self.high[axis].max(velocity.0[axis]);
         }
     }
 
-    pub fn width(&self) -> f32 {
+    fn width(&self) -> f32 {
         (0..3).map(|axis| self.high[axis] - self.low[axis]).fold(0.0, f32::max)
     }
 }

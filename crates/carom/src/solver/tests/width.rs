@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::solver::bundle::field;
-use crate::solver::contact::{begin, measure, nudge, resume, sweep_normals};
-use crate::solver::lanes::{LANES, Lanes, Line};
+use crate::solver::contact::{begin, measure, resume, sweep_normals};
+use crate::solver::lanes::{LANES, Lanes};
 
 /// A full bundle between 16 bodies and the world, a `share` of whose lanes is empty.
 fn bundle(random: &mut Random, share: f64) -> (Problem, Bundle) {
@@ -32,11 +32,7 @@ fn bundle(random: &mut Random, share: f64) -> (Problem, Bundle) {
 }
 
 /// Everything that the kernels do, one after the other: the bits of the bundle and of all rows.
-fn run<L: Lanes>(
-    bundle: &Bundle,
-    rows: &[Row],
-    (drifts, changes): (&[Row], &[Line; field::ROWS]),
-) -> Vec<u32> {
+fn run<L: Lanes>(bundle: &Bundle, rows: &[Row], drifts: &[Row]) -> Vec<u32> {
     let (mut bundle, mut rows) = (bundle.clone(), rows.to_vec());
     let mut displacements = rows.clone();
     measure::<L>(&mut bundle, drifts);
@@ -44,7 +40,6 @@ fn run<L: Lanes>(
     resume::<L>(&bundle, &mut rows);
     for _ in 0..3 {
         sweep::<L>(&mut bundle, &mut rows);
-        nudge::<L>(&mut bundle, &mut rows, changes);
     }
     sweep_normals::<L>(&mut bundle, &mut displacements);
     let lines = bundle.lines.iter().flat_map(|line| line.0);
@@ -67,13 +62,10 @@ fn all_widths_give_the_same_bits() {
         let (problem, bundle) = bundle(&mut random, 0.2);
         let rows = problem.rows();
         let drifts = drifts(&mut random);
-        let change = |_| Line(std::array::from_fn(|_| random.range(-0.1, 0.1) as f32));
-        let changes = std::array::from_fn(change);
-        let other = (&drifts[..], &changes);
-        let narrow = run::<Portable<1>>(&bundle, &rows, other);
-        assert_eq!(narrow, run::<Portable<2>>(&bundle, &rows, other));
-        assert_eq!(narrow, run::<Portable<4>>(&bundle, &rows, other));
-        assert_eq!(narrow, run::<Portable<8>>(&bundle, &rows, other));
+        let narrow = run::<Portable<1>>(&bundle, &rows, &drifts);
+        assert_eq!(narrow, run::<Portable<2>>(&bundle, &rows, &drifts));
+        assert_eq!(narrow, run::<Portable<4>>(&bundle, &rows, &drifts));
+        assert_eq!(narrow, run::<Portable<8>>(&bundle, &rows, &drifts));
     }
 }
 
@@ -83,7 +75,6 @@ fn empty_lanes_change_nothing() {
     for _ in 0..100 {
         let (problem, bundle) = bundle(&mut random, 0.6);
         let (rows, drifts) = (problem.rows(), drifts(&mut random));
-        let changes = [Line::ZERO; field::ROWS];
         // The same lanes, each alone in its bundle, then all of them together.
         let mut apart = rows.clone();
         for lane in 0..LANES {
@@ -112,7 +103,7 @@ fn empty_lanes_change_nothing() {
             assert_eq!(whole.get(lane, field::RESIDUAL), 0.0);
             assert_eq!(whole.get(lane, field::GAP), f32::MAX);
         }
-        let before = run::<Portable<4>>(&Bundle::EMPTY, &rows, (&drifts, &changes));
+        let before = run::<Portable<4>>(&Bundle::EMPTY, &rows, &drifts);
         let unchanged: Vec<u32> = rows.iter().chain(&rows).flat_map(|row| row.0).map(f32::to_bits).collect();
         assert_eq!(before[field::COUNT * LANES..], unchanged);
     }

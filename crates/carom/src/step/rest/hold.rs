@@ -25,12 +25,11 @@ const LIVELY: f64 = 20.0;
 /// Sweeps that every contact gets in a substep, that an island in motion may take, and contacts times sweeps that one about to
 /// rest may.
 const SWEEPS: u32 = 2;
-const IN_MOTION: u32 = 8;
+const IN_MOTION: u32 = 40;
 const BUDGET: u32 = 40_000;
 
-/// Share of an overlap that is pushed out at the end of a step, and of the contact margin that is left.
+/// Share of an overlap that is pushed out at the end of a step.
 const PUSH_OUT: f32 = 0.5;
-const LEFT_IN: f64 = 0.1;
 
 /// Where the sweeps change a body's velocity by less than this share of what gravity does, the forces on it persist.
 const STEADY: f64 = 0.05;
@@ -139,7 +138,7 @@ impl Rest {
             self.rows.displacements[row] = Row(still);
         }
         self.graph.measure(&self.rows.drifts);
-        let allowed = (LEFT_IN * law.contact_margin()) as f32;
+        let allowed = law.overlap_left() as f32;
         if !self.graph.push_out(&mut self.rows.displacements, PUSH_OUT, allowed) {
             return;
         }
