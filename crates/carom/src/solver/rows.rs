@@ -16,6 +16,8 @@ pub(crate) struct Rows {
     /// Displacements that push overlaps out, laid out like velocities (m, rad).
     pub displacements: Vec<Row>,
     anchors: Vec<Pose>,
+    /// Where the body has not gone far from, m, and for how long, s.
+    haunts: Vec<(DVec3, f64)>,
     /// How many contacts the body has.
     contacts: Vec<u32>,
     /// The bodies that have any, ascending.
@@ -32,6 +34,7 @@ impl Rows {
             drifts: Vec::new(),
             displacements: Vec::new(),
             anchors: Vec::new(),
+            haunts: Vec::new(),
             contacts: Vec::new(),
             held: Vec::new(),
             held_is_stale: false,
@@ -47,6 +50,7 @@ impl Rows {
             self.drifts.resize(count, UNTURNED);
             self.displacements.resize(count, Row::ZERO);
             self.anchors.resize(count, Pose::IDENTITY);
+            self.haunts.resize(count, (DVec3::NAN, 0.0));
             self.contacts.resize(count, 0);
         }
     }
@@ -58,6 +62,7 @@ impl Rows {
             self.drifts.swap_remove(row);
             self.displacements.swap_remove(row);
             self.anchors.swap_remove(row);
+            self.haunts.swap_remove(row);
             self.contacts.swap_remove(row);
             self.held_is_stale = true;
         }
@@ -109,6 +114,17 @@ impl Rows {
         let mut values = [linear.x, linear.y, linear.z, angular.x, angular.y, angular.z, inverse_mass, 0.0];
         values[WRITABLE] = f32::from(writable);
         self.velocities[row] = Row(values);
+    }
+
+    /// For how long (s) a body has stayed within `radius` (m) of some place, now that `time` (s) has passed.
+    pub fn stay(&mut self, row: usize, place: DVec3, (radius, time): (f64, f64)) -> f64 {
+        let (haunt, since) = &mut self.haunts[row];
+        if haunt.distance(place) <= radius {
+            *since += time;
+        } else {
+            (*haunt, *since) = (place, 0.0);
+        }
+        *since
     }
 
     /// A body is where its contacts are looked at.

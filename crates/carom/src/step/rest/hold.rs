@@ -34,16 +34,18 @@ const PUSH_OUT: f32 = 0.5;
 /// Where the sweeps change a body's velocity by less than this share of what gravity does, the forces on it persist.
 const STEADY: f64 = 0.05;
 
-/// What rests on something with friction, is driven by nothing and moves no faster than [`CAPTURED`] rest thresholds loses
+/// What rests on something with friction, goes nowhere and moves no faster than [`CAPTURED`] rest thresholds loses
 /// this share of its speed in a second, fading out towards that speed. Rolling has no friction of its own: without it a ball would roll about
-/// a pile for ever at a speed that gravity and the substep hardly tell from rest.
+/// a pile, or rock in a hollow of it, for ever at a speed that gravity and the substep hardly tell from rest.
 const RESISTANCE: f64 = 2.0;
 const CAPTURED: f64 = 8.0;
 
-/// A body rests on something if contacts push it by more than this share of what gravity does, and is driven if its velocity
-/// changes by more than the second.
+/// A body rests on something if contacts push it by more than this share of what gravity does. It goes nowhere if its velocity
+/// changes by no more than the second, so that what starts to roll down a slope does so freely; or if for so long (s) it has stayed
+/// where any such start would have taken it away from.
 const SUPPORTED: f64 = 0.5;
 const DRIVEN: f64 = 0.01;
+const LINGERED: f64 = 1.0;
 
 impl Rest {
     /// Finds what holds the bodies that rest on something during `span`, and gives them their paths; returns the rows whose
@@ -116,7 +118,10 @@ impl Rest {
             let inertia = bodies.constants[row].inertia(bodies.states[row].rotation);
             let mut change = [gain[0] + linear, turn + inertia * angular];
             let pull = gain[0].length();
-            if is_rough[row] && linear.length() > SUPPORTED * pull && change[0].length() < DRIVEN * pull {
+            let haunt = 0.5 * DRIVEN * pull / substep * LINGERED * LINGERED;
+            let lingers = self.rows.stay(row, bodies.states[row].position, (haunt, substep)) >= LINGERED;
+            let goes_nowhere = lingers || change[0].length() < DRIVEN * pull;
+            if is_rough[row] && linear.length() > SUPPORTED * pull && goes_nowhere {
                 capture(bodies, row, &mut change, law);
             }
             let sudden = difference(&after, &warm);
