@@ -98,6 +98,35 @@ fn edge_on_edge_at_right_angles() {
 }
 
 #[test]
+fn an_edge_askew_on_a_side_touches_at_both_its_crossings() {
+    // b's lower edge lies along x on a's upper side, a hair askew, and overlaps it: the shortest way out is at a right angle to this edge and
+    // one of the side's. A single point there would let b turn into a over the other.
+    let tilt = 0.5 * 2_f64.sqrt();
+    let corners = |half: [f64; 3]| {
+        let sign = |bit: usize, axis: usize| if bit >> axis & 1 == 1 { half[axis] } else { -half[axis] };
+        (0..8).map(|bit| DVec3::new(sign(bit, 0), sign(bit, 1), sign(bit, 2))).collect::<Vec<_>>()
+    };
+    let shapes = |half: [f64; 3]| {
+        let [x, y, z] = half.map(|half| 2.0 * half);
+        [Shape::cuboid(x, y, z), Shape::hull(&corners(half)).unwrap()]
+    };
+    for (a, b) in shapes([0.4, 0.5, 0.4]).into_iter().zip(shapes([0.7, 0.5, 0.5])) {
+        let lower = at(a, [0.0, -0.5, 0.0], [0.0; 3]);
+        for askew in [-0.02, -0.005, 0.0, 0.005, 0.02] {
+            let upper = Pose::new(
+                DVec3::new(0.0, tilt - 0.02, 0.0),
+                DQuat::from_rotation_z(askew) * DQuat::from_rotation_x(FRAC_PI_4),
+            );
+            let manifold = touch(&lower, &(b.clone(), upper), 0.05).unwrap();
+            let mut ends: Vec<f64> = manifold.points().iter().map(|point| point.point.x).collect();
+            ends.sort_by(f64::total_cmp);
+            assert!(ends.first().is_some_and(|&x| x < -0.35), "askew {askew}: {manifold:?}");
+            assert!(ends.last().is_some_and(|&x| x > 0.35), "askew {askew}: {manifold:?}");
+        }
+    }
+}
+
+#[test]
 fn capsule_on_face() {
     let floor = at(Shape::cuboid(4.0, 1.0, 4.0), [0.0, -0.5, 0.0], [0.0; 3]);
     let capsule = at(Shape::capsule(2.0, 0.25), [0.5, 0.24, 0.0], [0.0, 0.0, FRAC_PI_2]);

@@ -18,6 +18,9 @@ const ALIKE: f64 = 0.9;
 /// Regularises the search for impulses where the points lie in a line or are one.
 const ROUNDING: f64 = 1e-6;
 
+/// Heirs that are no further apart than this (m) turn nothing.
+const NO_REACH: f64 = 1e-12;
+
 /// What a manifold exerted.
 pub(super) struct Past {
     normal: DVec3,
@@ -132,12 +135,13 @@ fn follow(past: &[&Past], manifold: &Manifold, margin: f64) -> Remembered {
 /// Adds to the pressures of the heirs what pushes and turns as what was lost did: the smallest change that does so, as far as points
 /// can without pulling; none of the push is lost.
 fn inherit(lost: &[(DVec3, f64)], heirs: &[(usize, DVec3)], normal: DVec3, pressure: &mut [f64; POINTS]) {
-    let reach = heirs.iter().map(|(_, arm)| arm.length()).fold(f64::MIN_POSITIVE, f64::max);
+    let reach = heirs.iter().map(|(_, arm)| arm.length()).fold(0.0, f64::max);
+    let scale = if reach > NO_REACH { 1.0 / reach } else { 0.0 };
     let first = any_tangent(normal);
     let second = normal.cross(first);
-    // Push, and turn about both tangents, of a unit impulse. What turned from further out than any heir could is taken to have been there.
+    // Push, and turn about both tangents, of a unit impulse. What pressed further out than any heir can, counts as if no further.
     let wrench = |arm: DVec3| {
-        let arm = (arm / reach).clamp_length_max(1.0);
+        let arm = (arm * scale).clamp_length_max(1.0);
         DVec3::new(1.0, arm.dot(first), arm.dot(second))
     };
     let lost: DVec3 = lost.iter().map(|&(arm, pressure)| pressure * wrench(arm)).sum();
@@ -154,5 +158,50 @@ fn inherit(lost: &[(DVec3, f64)], heirs: &[(usize, DVec3)], normal: DVec3, press
     let after: f64 = pressure.iter().sum();
     if after > 0.0 {
         pressure.iter_mut().for_each(|pressure| *pressure *= (before + lost.x) / after);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SQUARE: [(usize, DVec3); 4] = [
+        (0, DVec3::new(0.5, 0.0, 0.5)),
+        (1, DVec3::new(-0.5, 0.0, 0.5)),
+        (2, DVec3::new(-0.5, 0.0, -0.5)),
+        (3, DVec3::new(0.5, 0.0, -0.5)),
+    ];
+
+    fn heirs_of(lost: &[(DVec3, f64)], heirs: &[(usize, DVec3)]) -> [f64; POINTS] {
+        let mut pressure = [0.0; POINTS];
+        inherit(lost, heirs, DVec3::Y, &mut pressure);
+        pressure
+    }
+
+    #[test]
+    fn what_pressed_in_the_middle_goes_to_all_alike() {
+        let pressure = heirs_of(&[(DVec3::ZERO, 8.0)], &SQUARE);
+        assert!(pressure.iter().all(|it| (it - 2.0).abs() < 1e-5), "{pressure:?}");
+    }
+
+    #[test]
+    fn push_and_turn_are_kept() {
+        let lost = [(DVec3::new(0.2, 0.0, 0.1), 3.0), (DVec3::new(-0.1, 0.0, 0.3), 1.0)];
+        let pressure = heirs_of(&lost, &SQUARE);
+        let turn = |arm: DVec3, pressure: f64| arm.cross(DVec3::Y * pressure);
+        let wanted: DVec3 = lost.iter().map(|&(arm, pressure)| turn(arm, pressure)).sum();
+        let found: DVec3 = SQUARE.iter().map(|&(index, arm)| turn(arm, pressure[index])).sum();
+        assert!((wanted - found).length() < 1e-5, "{wanted} became {found}");
+        assert!((pressure.iter().sum::<f64>() - 4.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn nothing_pulls_and_nothing_is_lost_where_turns_cannot_be_kept() {
+        let pressure = heirs_of(&[(DVec3::new(3.0, 0.0, 0.2), 5.0)], &SQUARE);
+        assert!(pressure.iter().all(|&it| it >= 0.0), "{pressure:?}");
+        assert!((pressure.iter().sum::<f64>() - 5.0).abs() < 1e-12);
+        let one = heirs_of(&[(DVec3::new(0.3, 0.0, 0.2), 5.0)], &[(0, DVec3::ZERO)]);
+        assert_eq!(one[1..], [0.0; 3]);
+        assert!((one[0] - 5.0).abs() < 1e-12);
     }
 }
