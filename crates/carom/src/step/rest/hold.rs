@@ -47,6 +47,14 @@ const SUPPORTED: f64 = 0.5;
 const DRIVEN: f64 = 0.01;
 const LINGERED: f64 = 1.0;
 
+/// What a substep gives to a body that contacts leave alone.
+struct Gain {
+    /// Velocity (m/s) and angular momentum (N·m·s).
+    free: [DVec3; 2],
+    /// The velocity that it would end with.
+    velocity: Row,
+}
+
 impl Rest {
     /// Finds what holds the bodies that rest on something during `span`, and gives them their paths; returns the rows whose
     /// paths are new.
@@ -75,32 +83,68 @@ impl Rest {
     /// Solves, and turns the velocities found into paths.
     fn push(&mut self, bodies: &mut Bodies, pairs: &Pairs, (law, span): (RestLaw, Span)) -> Vec<usize> {
         let substep = span.until - span.from;
+        let is_rough = self.rough_rows(bodies.states.len(), pairs);
         let held = self.rows.held().to_vec();
-        let mut is_rough = vec![false; bodies.states.len()];
+        let gains: Vec<Gain> = held.iter().map(|&row| self.gain(bodies, row, (law, substep))).collect();
+        let gravity = law.gravity.length() * substep;
+        self.graph.begin(&mut self.rows.velocities, [law.contact_margin(), LIVELY * gravity], substep);
+        let persisting: Vec<Row> = held.iter().map(|&row| self.rows.velocities[row]).collect();
+        self.solve(bodies, gravity);
+
+        for ((&row, gain), warm) in held.iter().zip(gains).zip(persisting) {
+            if !bodies.constants[row].is_movable() || bodies.is_asleep(row) {
+                continue;
+            }
+            let after = self.rows.velocities[row];
+            let [linear, angular] = difference(&after, &gain.velocity);
+            let inertia = bodies.constants[row].inertia(bodies.states[row].rotation);
+            let mut change = [gain.free[0] + linear, gain.free[1] + inertia * angular];
+            let pull = gain.free[0].length();
+            let stays = self.goes_nowhere(bodies, row, (change[0].length(), pull, substep));
+            if is_rough[row] && linear.length() > SUPPORTED * pull && stays {
+                capture(bodies, row, &mut change, law);
+            }
+            let sudden = difference(&after, &warm);
+            let steady = sudden[0].length().max(sudden[1].length() * bodies.grains[row]) <= STEADY * pull;
+            follow(bodies, row, change, (substep, steady));
+            set_pace(bodies, row, span.until);
+        }
+        held
+    }
+
+    /// Which bodies touch something with friction.
+    fn rough_rows(&self, rows: usize, pairs: &Pairs) -> Vec<bool> {
+        let mut is_rough = vec![false; rows];
         for &index in &self.resting {
             let pair = &pairs[index];
             pair.rows.into_iter().for_each(|row| is_rough[row] |= pair.surface.static_friction > 0.0);
         }
-        let mut gains = Vec::with_capacity(held.len());
-        for &row in &held {
-            let free = if bodies.is_asleep(row) {
-                Influence::default()
-            } else {
-                free_influence(bodies, row, law.gravity)
-            };
-            let inverse_inertia = bodies.constants[row].inverse_inertia(bodies.states[row].rotation);
-            let gain = [free.acceleration * substep, inverse_inertia * free.torque * substep];
-            self.rows.read_velocity(bodies, row, gain);
-            gains.push((gain, free.torque * substep, self.rows.velocities[row]));
-        }
-        let lively = LIVELY * law.gravity.length() * substep;
-        self.graph.begin(&mut self.rows.velocities, [law.contact_margin(), lively], substep);
-        let persisting: Vec<Row> = held.iter().map(|&row| self.rows.velocities[row]).collect();
-        let agreement = (AGREEMENT * law.gravity.length() * substep).max(1e-7) as f32;
-        let exactness = (EXACTNESS * law.gravity.length() * substep).max(1e-7) as f32;
-        let quiet = (QUIET * law.gravity.length() * substep) as f32;
-        let effort =
-            Effort { agreement, exactness, quiet, sweeps: SWEEPS, in_motion: IN_MOTION, budget: BUDGET };
+        is_rough
+    }
+
+    /// Reads the velocity that a body would have at the end of the substep if no contact pushed.
+    fn gain(&mut self, bodies: &Bodies, row: usize, (law, substep): (RestLaw, f64)) -> Gain {
+        let free = if bodies.is_asleep(row) {
+            Influence::default()
+        } else {
+            free_influence(bodies, row, law.gravity)
+        };
+        let inverse_inertia = bodies.constants[row].inverse_inertia(bodies.states[row].rotation);
+        let [velocity, momentum] = [free.acceleration * substep, free.torque * substep];
+        self.rows.read_velocity(bodies, row, [velocity, inverse_inertia * momentum]);
+        Gain { free: [velocity, momentum], velocity: self.rows.velocities[row] }
+    }
+
+    /// Finds impulses with which all velocities agree; `gravity` is what it does in a substep, m/s.
+    fn solve(&mut self, bodies: &Bodies, gravity: f64) {
+        let effort = Effort {
+            agreement: (AGREEMENT * gravity).max(1e-7) as f32,
+            exactness: (EXACTNESS * gravity).max(1e-7) as f32,
+            quiet: (QUIET * gravity) as f32,
+            sweeps: SWEEPS,
+            in_motion: IN_MOTION,
+            budget: BUDGET,
+        };
         self.graph.solve(&mut self.rows.velocities, effort, |row| {
             let (state, constants) = (&bodies.states[row as usize], &bodies.constants[row as usize]);
             (constants.is_movable() && !bodies.is_asleep(row as usize)).then(|| Mobility {
@@ -108,29 +152,19 @@ impl Rest {
                 inverse_inertia: constants.inverse_inertia(state.rotation),
             })
         });
+    }
 
-        for ((&row, (gain, turn, before)), warm) in held.iter().zip(gains).zip(persisting) {
-            if !bodies.constants[row].is_movable() || bodies.is_asleep(row) {
-                continue;
-            }
-            let after = self.rows.velocities[row];
-            let [linear, angular] = difference(&after, &before);
-            let inertia = bodies.constants[row].inertia(bodies.states[row].rotation);
-            let mut change = [gain[0] + linear, turn + inertia * angular];
-            let pull = gain[0].length();
-            let haunt = 0.5 * DRIVEN * pull / substep * LINGERED * LINGERED;
-            let lingers = self.rows.stay(row, bodies.states[row].position, (haunt, substep)) >= LINGERED;
-            let goes_nowhere = lingers || change[0].length() < DRIVEN * pull;
-            if is_rough[row] && linear.length() > SUPPORTED * pull && goes_nowhere {
-                capture(bodies, row, &mut change, law);
-            }
-            let sudden = difference(&after, &warm);
-            let steady =
-                sudden[0].length().max(sudden[1].length() * bodies.grains[row]) <= STEADY * gain[0].length();
-            follow(bodies, row, change, (substep, steady));
-            set_pace(bodies, row, span.until);
-        }
-        held
+    /// Whether a body whose velocity changes by `change` (m/s) in a substep, in which what pulls it would change it by `pull`,
+    /// goes nowhere.
+    fn goes_nowhere(
+        &mut self,
+        bodies: &Bodies,
+        row: usize,
+        (change, pull, substep): (f64, f64, f64),
+    ) -> bool {
+        let haunt = 0.5 * DRIVEN * pull / substep * LINGERED * LINGERED;
+        let lingers = self.rows.stay(row, bodies.states[row].position, (haunt, substep)) >= LINGERED;
+        lingers || change < DRIVEN * pull
     }
 
     /// Pushes overlaps out, at the end of a step; velocities stay.
