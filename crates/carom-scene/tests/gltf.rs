@@ -8,6 +8,7 @@ mod meshes;
 mod nodes;
 #[path = "gltf/physics.rs"]
 mod physics;
+mod text;
 
 use carom::math::DVec3;
 use carom::{Body, Shape};
@@ -15,6 +16,7 @@ use carom_scene::{Scene, SceneError};
 use serde_json::{Value, json};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicU32, Ordering};
+use text::base64;
 
 /// A fresh folder for the files of one test.
 fn folder() -> PathBuf {
@@ -98,19 +100,6 @@ fn glb(document: &Value, binary: &[u8]) -> Vec<u8> {
     let length = bytes.len() as u32;
     bytes[8..12].copy_from_slice(&length.to_le_bytes());
     bytes
-}
-
-fn base64(bytes: &[u8]) -> String {
-    const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    let mut text = String::new();
-    for group in bytes.chunks(3) {
-        let all = group.iter().chain(&[0, 0]).take(3).fold(0_u32, |all, byte| all << 8 | u32::from(*byte));
-        for i in 0..4 {
-            let letter = LETTERS[(all >> (18 - 6 * i) & 63) as usize];
-            text.push(if i <= group.len() { char::from(letter) } else { '=' });
-        }
-    }
-    text
 }
 
 fn body<'a>(scene: &'a Scene, name: &str) -> &'a Body {
