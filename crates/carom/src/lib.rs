@@ -15,6 +15,10 @@
 //! # Features
 //! `deterministic` switches parry and glam to their scalar paths, for equal bits across targets.
 
+// Tests in here share files with those outside.
+#[cfg(test)]
+extern crate self as carom;
+
 // What a user writes down.
 mod body;
 mod filter;

@@ -3,9 +3,9 @@
 use carom::math::DVec3;
 use carom::prelude::*;
 use carom::{Impact, Settings};
-use support::Random;
+use random::Random;
 
-mod support;
+mod random;
 
 const STEP: f64 = 1.0 / 60.0;
 

@@ -5,9 +5,9 @@ use carom::impulse::{Contact, Resolution, Side, Velocity, resolve};
 use carom::math::{DMat3, DQuat, DVec3, any_tangent};
 use carom::prelude::*;
 use carom::{Impact, Settings};
-use support::Random;
+use random::Random;
 
-mod support;
+mod random;
 
 const STEP: f64 = 1.0 / 60.0;
 const GRAVITY: DVec3 = DVec3::new(0.0, -9.81, 0.0);

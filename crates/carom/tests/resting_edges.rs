@@ -1,9 +1,9 @@
 //! What rests when the world around it changes: supports that leave, sleepers, bodies that are lost.
 
-mod support;
+mod random;
 
 use carom::prelude::*;
-use support::Random;
+use random::Random;
 
 const STEP: f64 = 1.0 / 60.0;
 const GRAVITY: f64 = 9.81;

@@ -3,9 +3,9 @@
 use carom::conditions::{DOUBLE, Hit, conditions};
 use carom::impulse::{Contact, Side, Velocity, resolve};
 use carom::math::{DMat3, DQuat, DVec3, rotated_diagonal};
-use support::Random;
+use random::Random;
 
-mod support;
+mod random;
 
 impl Random {
     fn side(&mut self) -> Side {

@@ -82,7 +82,7 @@ fn nearly_parallel_and_nearly_level() {
     let mut random = Random(21);
     for kinds in kinds() {
         for _ in 0..1500 {
-            let noise = 10_f64.powf(random.between(-18.0, -3.0));
+            let noise = 10_f64.powf(random.range(-18.0, -3.0));
             let place = DVec3::new(
                 [0.0, 0.3, 1.0][(random.bits() % 3) as usize],
                 [0.0, 0.75, 1.0][(random.bits() % 3) as usize],

@@ -70,8 +70,7 @@ fn deepest(found: &[Manifold]) -> Option<(f64, DVec3)> {
 /// A pose for something above, in or below the surface; in every third round it stands straight, right on a line or a
 /// corner of the grid.
 fn place(random: &mut Random, round: usize) -> Pose {
-    let mut position =
-        DVec3::new(random.between(-2.8, 2.8), random.between(-0.7, 0.9), random.between(-2.6, 2.6));
+    let mut position = DVec3::new(random.range(-2.8, 2.8), random.range(-0.7, 0.9), random.range(-2.6, 2.6));
     let mut rotation = random.rotation();
     if round.is_multiple_of(3) {
         position.x = (position.x / 0.4).round() * 0.4;
@@ -91,7 +90,7 @@ fn a_height_field_is_the_mesh_of_its_triangles_to_the_last_bit() {
         let heights = if smooth {
             rows(|i, j| 0.3 * (0.7 * i as f64).sin() * (0.9 * j as f64).cos())
         } else {
-            rows(|i, j| if (i + j) % 4 == 0 { random.between(-0.3, 0.3) } else { 0.0 })
+            rows(|i, j| if (i + j) % 4 == 0 { random.range(-0.3, 0.3) } else { 0.0 })
         };
         let field = Shape::height_field(&heights, SIZE).unwrap();
         let (same, backwards) = (mesh(&heights, false), mesh(&heights, true));
@@ -181,7 +180,7 @@ fn what_slides_over_flat_cells_is_carried_straight_up() {
         for _ in 0..100 {
             let mut pose = Pose::new(DVec3::ZERO, random.rotation());
             let depth = [0.02, 1e-4, 0.0][random.bits() as usize % 3];
-            pose.position = DVec3::new(random.between(-1.2, 1.2), 0.0, random.between(-1.2, 1.2));
+            pose.position = DVec3::new(random.range(-1.2, 1.2), 0.0, random.range(-1.2, 1.2));
             pose.position.y = -shape.bounds(&pose).0.y - depth;
             let found = separation(&field, &Pose::IDENTITY, shape, &pose);
             // Deep in a triangle the shortest way out of it may lead sideways.

@@ -5,4 +5,6 @@ mod features;
 mod height_field;
 mod oracle;
 mod properties;
+#[path = "../random/mod.rs"]
+mod random;
 mod support;

@@ -164,7 +164,7 @@ fn distances_agree_with_a_search_in_double_precision() {
             let (a, mut b) = random.pair(kinds);
             if random.bits() & 3 == 0 {
                 // Parallel, but for rounding or a little more.
-                let tilt = random.direction() * 10_f64.powf(random.between(-17.0, -2.0));
+                let tilt = random.direction() * 10_f64.powf(random.range(-17.0, -2.0));
                 b.1.rotation = carom::math::rotation_from_vector(tilt) * a.1.rotation;
             }
             let cores = distance_of_cores(&a, &b).min(distance_of_cores(&b, &a));
@@ -216,7 +216,7 @@ fn surface_point(shape: &Shape, random: &mut Random) -> DVec3 {
     match *shape {
         Shape::Sphere { radius } => direction * radius,
         Shape::Capsule { height, radius } => {
-            let y = random.between(-0.5, 0.5) * height;
+            let y = random.range(-0.5, 0.5) * height;
             let around = DVec3::new(direction.x, 0.0, direction.z).normalize();
             let tip = DVec3::new(0.0, 0.5 * height * direction.y.signum(), 0.0);
             if random.bits() & 1 == 0 {
@@ -227,7 +227,7 @@ fn surface_point(shape: &Shape, random: &mut Random) -> DVec3 {
         }
         Shape::Cuboid { size } => {
             let axis = (random.bits() % 3) as usize;
-            let mut point = DVec3::from_array(std::array::from_fn(|i| random.between(-0.5, 0.5) * size[i]));
+            let mut point = DVec3::from_array(std::array::from_fn(|i| random.range(-0.5, 0.5) * size[i]));
             point[axis] = 0.5 * size[axis] * direction[axis].signum();
             point
         }
@@ -286,7 +286,7 @@ fn no_direction_leads_out_of_an_overlap_sooner() {
             let mut best = touch(&a, &b, 0.0).unwrap().normal;
             assert!((along(best) - ours).abs() < 1e-9, "{kinds:?}: {} {ours} {a:?} {b:?}", along(best));
             for round in 0..4000 {
-                let spread = if round % 2 == 0 { 10.0 } else { 10_f64.powf(random.between(-6.0, 0.0)) };
+                let spread = if round % 2 == 0 { 10.0 } else { 10_f64.powf(random.range(-6.0, 0.0)) };
                 let n = (best + random.direction() * spread).normalize();
                 if along(n) > along(best) {
                     best = n;

@@ -1,41 +1,13 @@
 //! Random shapes and poses, the same ones in every run.
 
+pub use crate::random::Random;
 use carom::Shape;
 use carom::collide::{Manifold, manifolds, separation};
-use carom::math::{DQuat, DVec3, Pose, rotation_from_vector};
-
-/// SplitMix64 (Steele, Lea and Flood, *Fast Splittable Pseudorandom Number Generators*, 2014).
-pub struct Random(pub u64);
+use carom::math::{DVec3, Pose, rotation_from_vector};
 
 impl Random {
-    pub fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    pub fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * ((self.bits() >> 11) as f64 / (1_u64 << 53) as f64)
-    }
-
-    pub fn direction(&mut self) -> DVec3 {
-        loop {
-            let v = DVec3::new(self.between(-1.0, 1.0), self.between(-1.0, 1.0), self.between(-1.0, 1.0));
-            if v.length() > 0.1 && v.length() < 1.0 {
-                return v.normalize();
-            }
-        }
-    }
-
-    pub fn rotation(&mut self) -> DQuat {
-        let axis = self.direction();
-        rotation_from_vector(axis * self.between(0.0, 3.1))
-    }
-
     pub fn shape(&mut self, kind: Kind) -> Shape {
-        let mut length = || self.between(0.1, 2.0);
+        let mut length = || self.range(0.1, 2.0);
         match kind {
             Kind::Sphere => Shape::sphere(length()),
             Kind::Capsule => Shape::capsule(2.0 * length(), 0.5 * length()),
@@ -55,9 +27,9 @@ impl Random {
     pub fn pair(&mut self, kinds: (Kind, Kind)) -> ((Shape, Pose), (Shape, Pose)) {
         let (a, b) = (self.shape(kinds.0), self.shape(kinds.1));
         let reach = [&a, &b].iter().map(|s| s.reach(DVec3::ZERO)).filter(|r| r.is_finite()).sum::<f64>();
-        let pose_a = Pose::new(self.direction() * self.between(0.0, 1.0), self.rotation());
+        let pose_a = Pose::new(self.direction() * self.range(0.0, 1.0), self.rotation());
         let away = self.direction();
-        let mut pose_b = Pose::new(pose_a.position + away * self.between(0.0, 1.2 * reach), self.rotation());
+        let mut pose_b = Pose::new(pose_a.position + away * self.range(0.0, 1.2 * reach), self.rotation());
         if self.bits() & 1 == 0 {
             for _ in 0..6 {
                 pose_b.position += away * (0.01 - separation(&a, &pose_a, &b, &pose_b)).clamp(-reach, reach);

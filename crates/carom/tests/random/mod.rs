@@ -1,4 +1,4 @@
-//! Chance that is the same every time.
+//! Chance that is the same every time: for all tests of this crate, those inside it too.
 #![allow(dead_code, reason = "each test takes what it needs")]
 
 use carom::math::{DQuat, DVec3};
@@ -7,12 +7,21 @@ use carom::math::{DQuat, DVec3};
 pub struct Random(pub u64);
 
 impl Random {
-    pub fn unit(&mut self) -> f64 {
+    pub fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+        z ^ (z >> 31)
+    }
+
+    pub fn unit(&mut self) -> f64 {
+        (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// A whole number below `end`.
+    pub fn below(&mut self, end: usize) -> usize {
+        (self.bits() % end as u64) as usize
     }
 
     pub fn range(&mut self, low: f64, high: f64) -> f64 {
