@@ -220,11 +220,10 @@ impl Island {
         }
     }
 
-    /// Solves until no unknown's velocity is further than `agreement` (m/s) from what it asks for, or it seems that this will not be;
-    /// returns how far the worst is in what has been found, which is no further than before.
-    pub fn solve(&mut self, agreement: f64) -> f64 {
+    /// Solves until no unknown's velocity is further than `exactness` (m/s) from what it asks for; false if it seems that this will
+    /// not be. Then what has been found is of no use.
+    pub fn solve(&mut self, exactness: f64) -> bool {
         let mut matrix = Matrix::new(self.movers.len());
-        let mut best = (self.residual(), self.state());
         let mut work = 0;
         for set in 0..SETS {
             if work > WORK {
@@ -237,27 +236,14 @@ impl Island {
                 self.step(&matrix);
             }
             self.project();
-            let residual = self.residual();
-            if residual <= agreement {
-                return residual;
-            }
-            if residual < best.0 {
-                best = (residual, self.state());
+            if self.residual() <= exactness {
+                return true;
             }
             for _ in 0..SWEEPS {
                 self.sweep();
             }
         }
-        let (residual, (velocities, impulses)) = best;
-        self.movers.iter_mut().zip(velocities).for_each(|(mover, velocity)| mover.velocity = velocity);
-        self.unknowns.iter_mut().zip(impulses).for_each(|(unknown, impulse)| unknown.impulse = impulse);
-        residual
-    }
-
-    /// All velocities and impulses.
-    fn state(&self) -> (Vec<Vector>, Vec<f64>) {
-        let velocities = self.movers.iter().map(|mover| mover.velocity).collect();
-        (velocities, self.unknowns.iter().map(|unknown| unknown.impulse).collect())
+        false
     }
 
     /// The velocity of a contact along an unknown.

@@ -193,9 +193,11 @@ impl<'a> Events<'a> {
             let surface = self.pairs[index].surface;
             let stays = -touch.closing_speed * surface.restitution <= touch.rest_speed;
             self.impacts.extend(strike(self.bodies, colliders, &touch, &surface, time));
-            let parts = Approach::of(self.bodies, colliders, self.law)
-                .is_some_and(|approach| approach.parts(&touch.contact, touch.normal));
-            if !rests && stays && !parts {
+            let parts = || {
+                Approach::of(self.bodies, colliders, self.law)
+                    .is_some_and(|approach| approach.parts(&touch.contact, touch.normal))
+            };
+            if !rests && stays && !parts() {
                 self.rest.take(self.bodies, self.pairs, index, (self.law, span));
             }
             for row in rows {

@@ -10,6 +10,13 @@
 //! 4. each body gets its path for the substep.
 //!
 //! Contacts are hard: they need no overlap to press, so that nothing sinks under a load.
+//!
+//! ```text
+//! rest.rs           which pairs the contacts own, from when until when
+//! rest/renew.rs     contacts looked at anew where bodies have moved
+//! rest/remember.rs  what pressed goes on pressing
+//! rest/hold.rs      impulses, and the paths that they give; overlaps out; rest capture
+//! ```
 
 mod hold;
 mod remember;

@@ -152,7 +152,7 @@ impl Graph {
         }
     }
 
-    /// Solves some contacts directly, with all bodies as they are that `mobility` knows nothing of; whether they agree then.
+    /// Solves the contacts of an island directly, if that leads to an exact solution; whether it did.
     /// Otherwise nothing changes: where more rows press than bodies can move, what is nearly a solution may hold huge
     /// impulses that cancel, and do so no longer in the next substep.
     fn solve_at_once(
@@ -167,7 +167,7 @@ impl Graph {
             let bundle = &self.colors[color].bundles[lane / LANES];
             small.add(bundle, lane % LANES, velocities, &mobility);
         }
-        if small.solve(f64::from(effort.exactness)) > f64::from(effort.exactness) {
+        if !small.solve(f64::from(effort.exactness)) {
             return false;
         }
         small.write(velocities);

@@ -84,7 +84,7 @@ fn solved(problem: &Problem, exactness: f64) -> (Vec<Row>, Vec<[f64; field::ROWS
     // As in the graph: after two sweeps.
     let (mut rows, bundles) = problem.swept(2);
     let mut island = problem.island(&bundles, &rows);
-    let agrees = island.solve(exactness) <= exactness;
+    let agrees = island.solve(exactness);
     island.write(&mut rows);
     let impulses = (0..bundles.len()).map(|contact| island.impulses(contact).map(f64::from)).collect();
     (rows, impulses, agrees)

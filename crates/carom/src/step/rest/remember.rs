@@ -12,7 +12,7 @@ use crate::solver::bundle::{POINTS, field};
 use crate::solver::prepare::{Remembered, middle};
 use crate::step::pairs::Support;
 
-/// A manifold follows upon one whose normal makes an angle with its own of at most this cosine.
+/// A manifold follows upon one whose normal makes an angle with its own that has at least this cosine.
 const ALIKE: f64 = 0.9;
 
 /// Regularises the search for impulses where the points lie in a line or are one.

@@ -1,7 +1,7 @@
 //! Contacts looked at anew: where the bodies have moved, and where a pair has just come to rest.
 //!
 //! A body's contacts stay as they are while it lies still: what it moves meanwhile is measured from its *anchor*, the pose that
-//! it had when they were last renewed. Impulses go over from the old contacts to the new ones, by the features that touch.
+//! it had when they were last renewed. Impulses go over from the old contacts to the new ones (`remember.rs`).
 
 use super::remember::remembered;
 use super::{Rest, Span, horizon};
