@@ -130,6 +130,12 @@ pub struct Impact {
     pub after_a: Velocity,
     /// `b` as it left.
     pub after_b: Velocity,
+    /// f as it was carried out: the impulse along the normal, N·s. Struck alone, that of [`Impact::resolve`].
+    pub fraction: f64,
+    /// The impulse across the normal that `b` got, N·s; `a` got its opposite.
+    pub friction_impulse: DVec3,
+    /// Whether friction brought the points to a common tangential velocity.
+    pub sticks: bool,
     /// How many contacts were struck at that instant together with this one, itself included.
     pub together: u32,
     /// In which round of that instant this one was resolved, from 0.
@@ -137,7 +143,17 @@ pub struct Impact {
 }
 
 impl Impact {
-    /// The seed's five steps for this collision, in double precision.
+    /// v_s: speed of `b` against `a` along the normal as they left, m/s; negative if they still close.
+    pub fn separating_speed(&self) -> f64 {
+        (self.after_b.at(self.side_b.arm) - self.after_a.at(self.side_a.arm)).dot(self.contact.normal)
+    }
+
+    /// The impulse that `b` got, N·s; `a` got its opposite.
+    pub fn impulse(&self) -> DVec3 {
+        self.fraction * self.contact.normal + self.friction_impulse
+    }
+
+    /// The seed's five steps for this collision if it were alone, in double precision.
     pub fn resolve(&self) -> Resolution {
         resolve(&self.side_a, &self.side_b, &self.contact)
     }
@@ -159,7 +175,9 @@ impl Impact {
 /// One line: when, where, how fast, and with which impulse.
 impl std::fmt::Display for Impact {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Resolution { closing_speed, fraction, separating_speed, .. } = self.resolve();
+        let closing_speed = self.resolve().closing_speed;
+        let separating_speed = self.separating_speed();
+        let fraction = self.fraction;
         let [x, y, z] = self.point.to_array();
         write!(
             f,

@@ -72,11 +72,15 @@ pub(crate) fn strike(
         pose_b: bodies.center_pose(b),
         after_a: side_a.velocity,
         after_b: side_b.velocity,
+        fraction: 0.0,
+        friction_impulse: DVec3::ZERO,
+        sticks: false,
         together: 1,
         round: 0,
     };
-    let Resolution { fraction, friction_impulse, .. } = resolve(&side_a, &side_b, &contact);
-    let impulse = fraction * contact.normal + friction_impulse;
+    let Resolution { fraction, friction_impulse, sticks, .. } = resolve(&side_a, &side_b, &contact);
+    (impact.fraction, impact.friction_impulse, impact.sticks) = (fraction, friction_impulse, sticks);
+    let impulse = impact.impulse();
     push(bodies, row_a, side_a.arm, -impulse);
     push(bodies, row_b, side_b.arm, impulse);
     impact.after_a = velocity_of(bodies, row_a);
