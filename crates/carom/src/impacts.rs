@@ -1,4 +1,6 @@
 //! Impacts: when two bodies touch, and what becomes of them.
 
+pub(crate) mod instant;
+pub(crate) mod reflection;
 pub(crate) mod strike;
 pub(crate) mod time_of_impact;

@@ -76,7 +76,7 @@ impl Side {
     /// `K`: the matrix that takes an impulse at the collision point to the change of velocity there.
     ///
     /// `K = 1/m + [r]ᵀ I⁻¹ [r]`, column by column the response to an impulse along each axis; symmetric.
-    fn inverse_effective_mass(&self) -> DMat3 {
+    pub(crate) fn inverse_effective_mass(&self) -> DMat3 {
         DMat3::from_cols(
             self.respond(DVec3::X).at_point,
             self.respond(DVec3::Y).at_point,

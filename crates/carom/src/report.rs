@@ -3,7 +3,8 @@
 use crate::bodies::BodyId;
 use crate::conditions::{Hit, STORED};
 use crate::impulse::{Contact, Resolution, Side, Velocity, resolve};
-use crate::math::{DVec3, Pose};
+use crate::math::{DMat3, DVec3, Pose};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Where on a shape a contact lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -61,15 +62,11 @@ impl StepReport {
         &self.quarantined
     }
 
-    /// Takes the impacts of a step that began at `start`: dates them, puts them in order, and counts those of one
-    /// instant that share bodies.
+    /// Takes the impacts of a step that began at `start`, with rounds that ascend in the order in which they were carried out:
+    /// counts rounds and contacts for each instant, puts impacts in order and dates them.
     pub(crate) fn record(&mut self, mut impacts: Vec<Impact>, start: f64) {
-        let mut first = 0;
-        while first < impacts.len() {
-            let instant = impacts[first].time;
-            let count = impacts[first..].iter().take_while(|impact| impact.time == instant).count();
-            number_rounds(&mut impacts[first..first + count]);
-            first += count;
+        for instant in impacts.chunk_by_mut(|one, other| one.time == other.time) {
+            count_together(instant);
         }
         impacts.sort_by(|x, y| x.time.total_cmp(&y.time).then((x.a, x.b, x.round).cmp(&(y.a, y.b, y.round))));
         for impact in &mut impacts {
@@ -79,18 +76,51 @@ impl StepReport {
     }
 }
 
-/// Impacts of one instant, in the order in which they were resolved: each comes a round later than those before it that
-/// share a body with it.
-fn number_rounds(impacts: &mut [Impact]) {
+/// Among impacts of one time, those that hang together through bodies that impulses move are one instant: numbers its
+/// rounds from 0 and counts its contacts.
+fn count_together(impacts: &mut [Impact]) {
+    let mut group_of: Vec<usize> = (0..impacts.len()).collect();
+    let mut last_of: BTreeMap<BodyId, usize> = BTreeMap::new();
     for index in 0..impacts.len() {
-        let shares = |other: &Impact, this: &Impact| {
-            [other.a, other.b].iter().any(|body| *body == this.a || *body == this.b)
-        };
-        let this = &impacts[index];
-        let before = impacts[..index].iter().filter(|other| shares(other, this));
-        let round = before.map(|other| other.round + 1).max().unwrap_or(0);
-        impacts[index].round = round;
+        let impact = &impacts[index];
+        for (body, side) in [(impact.a, &impact.side_a), (impact.b, &impact.side_b)] {
+            if side.mass.is_infinite() && side.inverse_inertia == DMat3::ZERO {
+                continue;
+            }
+            if let Some(before) = last_of.insert(body, index) {
+                let (one, other) = (leader(&mut group_of, before), leader(&mut group_of, index));
+                group_of[one.max(other)] = one.min(other);
+            }
+        }
     }
+    let mut groups: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for index in 0..impacts.len() {
+        groups.entry(leader(&mut group_of, index)).or_default().push(index);
+    }
+    for group in groups.into_values() {
+        let mut rounds: Vec<u32> = group.iter().map(|&index| impacts[index].round).collect();
+        rounds.sort_unstable();
+        rounds.dedup();
+        let place = |&index: &usize| {
+            let impact = &impacts[index];
+            let point = impact.point.to_array().map(f64::to_bits);
+            (impact.a, impact.collider_a, impact.b, impact.collider_b, point)
+        };
+        let together = group.iter().map(place).collect::<BTreeSet<_>>().len() as u32;
+        for index in group {
+            let impact = &mut impacts[index];
+            impact.round = rounds.partition_point(|&round| round < impact.round) as u32;
+            impact.together = together;
+        }
+    }
+}
+
+fn leader(group_of: &mut [usize], mut index: usize) -> usize {
+    while group_of[index] != index {
+        group_of[index] = group_of[group_of[index]];
+        index = group_of[index];
+    }
+    index
 }
 
 /// A collision that was resolved: a first touch of two bodies that closed faster than the rest threshold.

@@ -1,31 +1,36 @@
-//! Carries out a collision: the seed's impulse at the instant of the touch, and the record of it.
+//! The bodies at the instant of a touch, what impulses do to them, and the record of it.
 
 use crate::bodies::{Bodies, ColliderRow, WORLD_ROW};
-use crate::impacts::time_of_impact::Touch;
-use crate::impulse::{Contact, Resolution, Side, Velocity, resolve};
-use crate::material::Surface;
+use crate::collide::ContactPoint;
+use crate::impacts::reflection::{Blow, Mover, Spot};
+use crate::impulse::Velocity;
 use crate::math::{DMat3, DVec3};
 use crate::report::Impact;
+use crate::step::motion::state_at;
 
-/// A body at the instant of a touch, as the seed sees it. Its row must have been advanced to that instant.
-pub(crate) fn side_of(bodies: &Bodies, collider: &ColliderRow, point: DVec3) -> Side {
-    let row = collider.row;
-    let (state, constants) = (&bodies.states[row], &bodies.constants[row]);
+/// The body of a row as it will be at `time` within the step if nothing touches it before.
+pub(crate) fn mover_at(bodies: &Bodies, row: usize, time: f64) -> Mover {
+    let (state, constants) = (state_at(bodies, row, time), &bodies.constants[row]);
     let (inertia, inverse_inertia) = if constants.is_movable() {
         (constants.inertia(state.rotation), constants.inverse_inertia(state.rotation))
     } else {
         (DMat3::ZERO, DMat3::ZERO)
     };
-    Side {
-        mass: 1.0 / constants.inverse_mass,
-        inertia,
-        inverse_inertia,
-        arm: point - bodies.center_pose(collider).position,
-        velocity: velocity_of(bodies, row),
+    let velocity = Velocity { linear: state.velocity, angular: constants.angular_velocity(&state) };
+    Mover { mass: 1.0 / constants.inverse_mass, inertia, inverse_inertia, velocity }
+}
+
+/// Its centre of mass at that time; that of the collider's body where the row is the world's.
+pub(crate) fn center_at(bodies: &Bodies, collider: &ColliderRow, time: f64) -> DVec3 {
+    if collider.row == WORLD_ROW {
+        bodies.center_pose(collider).position
+    } else {
+        state_at(bodies, collider.row, time).position
     }
 }
 
-fn velocity_of(bodies: &Bodies, row: usize) -> Velocity {
+/// The velocity of a row as it is stored.
+pub(crate) fn velocity_of(bodies: &Bodies, row: usize) -> Velocity {
     let state = &bodies.states[row];
     Velocity { linear: state.velocity, angular: bodies.constants[row].angular_velocity(state) }
 }
@@ -38,52 +43,37 @@ pub(crate) fn push(bodies: &mut Bodies, row: usize, arm: DVec3, impulse: DVec3) 
     }
 }
 
-/// Resolves the touch of two colliders with the seed's impulse; the record's `time` is that of the instant.
-pub(crate) fn strike(
-    bodies: &mut Bodies,
+/// The record of a spot that gets a blow, before it does; both rows must have been advanced to its instant.
+pub(crate) fn record(
+    bodies: &Bodies,
     (key_a, key_b): (u32, u32),
-    touch: &Touch,
-    surface: &Surface,
-    time: f64,
+    touch: &ContactPoint,
+    (movers, spot, blow): (&[Mover], &Spot, &Blow),
+    (time, round): (f64, u32),
 ) -> Option<Impact> {
     let (a, b) = (bodies.collider(key_a)?, bodies.collider(key_b)?);
-    let (row_a, row_b) = (a.row, b.row);
-    let contact = Contact {
-        normal: touch.normal,
-        restitution: surface.restitution,
-        static_friction: surface.static_friction,
-        dynamic_friction: surface.dynamic_friction,
-    };
-    let (side_a, side_b) = (side_of(bodies, a, touch.point), side_of(bodies, b, touch.point));
-    let mut impact = Impact {
+    let (side_a, side_b) = (spot.side(movers, 0), spot.side(movers, 1));
+    Some(Impact {
         time,
         a: bodies.id_of(a.slot)?,
         b: bodies.id_of(b.slot)?,
         collider_a: a.index,
         collider_b: b.index,
-        feature_a: touch.contact.feature_a,
-        feature_b: touch.contact.feature_b,
+        feature_a: touch.feature_a,
+        feature_b: touch.feature_b,
         point: touch.point,
-        separation: touch.contact.separation,
-        contact,
+        separation: touch.separation,
+        contact: spot.contact,
         side_a,
         side_b,
         pose_a: bodies.center_pose(a),
         pose_b: bodies.center_pose(b),
         after_a: side_a.velocity,
         after_b: side_b.velocity,
-        fraction: 0.0,
-        friction_impulse: DVec3::ZERO,
-        sticks: false,
+        fraction: blow.normal,
+        friction_impulse: blow.tangent,
+        sticks: blow.sticks,
         together: 1,
-        round: 0,
-    };
-    let Resolution { fraction, friction_impulse, sticks, .. } = resolve(&side_a, &side_b, &contact);
-    (impact.fraction, impact.friction_impulse, impact.sticks) = (fraction, friction_impulse, sticks);
-    let impulse = impact.impulse();
-    push(bodies, row_a, side_a.arm, -impulse);
-    push(bodies, row_b, side_b.arm, impulse);
-    impact.after_a = velocity_of(bodies, row_a);
-    impact.after_b = velocity_of(bodies, row_b);
-    Some(impact)
+        round,
+    })
 }

@@ -63,8 +63,6 @@ pub(crate) struct Approach<'a> {
 /// Where and how fast two colliders close.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Touch {
-    /// In the world, m.
-    pub point: DVec3,
     pub normal: DVec3,
     pub contact: ContactPoint,
     /// Negative: they close, m/s.
@@ -240,7 +238,7 @@ impl<'a> Approach<'a> {
                 let closing_speed = normal_velocity(&motions, point, manifold.normal);
                 if closing_speed < fastest.map_or(-limit, |touch| touch.closing_speed) {
                     let normal = manifold.normal;
-                    fastest = Some(Touch { point, normal, contact: *contact, closing_speed, rest_speed });
+                    fastest = Some(Touch { normal, contact: *contact, closing_speed, rest_speed });
                 }
             }
         }

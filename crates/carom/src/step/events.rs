@@ -12,12 +12,12 @@
 //! Order: by time, then by bodies and colliders; so the same scene gives the same bits.
 
 use crate::bodies::{Bodies, WORLD_ROW};
-use crate::impacts::strike::strike;
+use crate::impacts::instant::Instant;
 use crate::impacts::time_of_impact::{Approach, RestLaw, Touch};
 use crate::math::DVec3;
 use crate::report::Impact;
 use crate::step::broad_phase::{BroadPhase, order, swept_bounds};
-use crate::step::motion::{advance, free_influence, set_pace};
+use crate::step::motion::{advance, rouse, set_pace};
 use crate::step::pairs::Pairs;
 use crate::step::rest::{Rest, Span};
 use std::cmp::{Ordering, Reverse};
@@ -74,6 +74,8 @@ pub(crate) struct Events<'a> {
     claims: Vec<Claim>,
     touches_of_row: Vec<u32>,
     impacts: Vec<Impact>,
+    /// Rounds so far, of all instants.
+    rounds: u32,
 }
 
 impl<'a> Events<'a> {
@@ -96,6 +98,7 @@ impl<'a> Events<'a> {
             claims,
             touches_of_row: vec![0; rows],
             impacts: Vec::new(),
+            rounds: 0,
         }
     }
 
@@ -170,7 +173,7 @@ impl<'a> Events<'a> {
         let (colliders, rows) = (self.pairs[index].colliders, self.pairs[index].rows);
         let time = span.from;
         for row in rows {
-            self.rouse(row, span);
+            rouse(self.bodies, row, self.law, time);
             advance(self.bodies, row, time);
             self.touches_of_row[row] += u32::from(row != WORLD_ROW);
         }
@@ -189,22 +192,34 @@ impl<'a> Events<'a> {
             return;
         };
         if !self.comes_to_rest(index, &touch) {
-            self.pairs[index].now.hits += 1;
-            let surface = self.pairs[index].surface;
-            let stays = -touch.closing_speed * surface.restitution <= touch.rest_speed;
-            self.impacts.extend(strike(self.bodies, colliders, &touch, &surface, time));
-            let parts = || {
-                Approach::of(self.bodies, colliders, self.law)
-                    .is_some_and(|approach| approach.parts(&touch.contact, touch.normal))
-            };
-            if !rests && stays && !parts() {
-                self.rest.take(self.bodies, self.pairs, index, (self.law, span));
-            }
-            for row in rows {
-                self.reroute(row, span);
-            }
+            self.strike(index, &touch, span);
         } else if !rests {
             self.rest.take(self.bodies, self.pairs, index, (self.law, span));
+        }
+    }
+
+    /// Carries out a collision, with all that is struck at the same instant.
+    fn strike(&mut self, index: usize, touch: &Touch, span: Span) {
+        let at = (self.law, span.from);
+        let outcome = Instant::new(self.bodies, self.pairs, (index, touch), at).resolve();
+        let rounds = outcome.impacts.iter().map(|impact| impact.round + 1).max().unwrap_or(0);
+        self.impacts.extend(
+            outcome.impacts.into_iter().map(|impact| Impact { round: self.rounds + impact.round, ..impact }),
+        );
+        self.rounds += rounds;
+        for (pair, stays) in outcome.struck {
+            self.pairs[pair].now.hits += 1;
+            if stays && !self.pairs[pair].rests {
+                self.rest.take(self.bodies, self.pairs, pair, (self.law, span));
+            }
+        }
+        for row in outcome.rows {
+            self.reroute(row, span);
+        }
+        for pair in outcome.unfinished {
+            let now = &mut self.pairs[pair].now;
+            now.stamp += 1;
+            now.asked_until = span.until;
         }
     }
 
@@ -216,16 +231,6 @@ impl<'a> Events<'a> {
         let rattles = pair.now.hits >= RATTLE_HITS && closing < RATTLE_SPEED * pair.now.fastest;
         let wedged = pair.rows.iter().any(|&row| self.touches_of_row[row] >= WEDGED_TOUCHES);
         closing <= touch.rest_speed || rattles || wedged
-    }
-
-    /// Wakes the body of a row if it sleeps, and gives gravity back to it.
-    fn rouse(&mut self, row: usize, span: Span) {
-        if self.bodies.wake(row) {
-            self.bodies.ways[row] = self.bodies.way(row, span.from);
-            self.bodies.clocks[row] = span.from;
-            self.bodies.influences[row] = free_influence(self.bodies, row, self.law.gravity);
-            set_pace(self.bodies, row, self.law.step);
-        }
     }
 
     /// A body has got a new path at the start of `span`: find whom it could touch now, and ask all its pairs again.

@@ -2,6 +2,7 @@
 
 use crate::bodies::{Bodies, WORLD_ROW};
 use crate::flight::{Influence, RigidState, fly};
+use crate::impacts::time_of_impact::RestLaw;
 use crate::math::DVec3;
 
 /// Sets all clocks to the start of a step of `time` seconds, and what gravity and the user's forces do during it.
@@ -28,6 +29,16 @@ pub(crate) fn free_influence(bodies: &Bodies, row: usize, gravity: DVec3) -> Inf
     let constants = &bodies.constants[row];
     let (force, torque) = bodies.forces[row];
     Influence { acceleration: gravity * constants.gravity_factor + force * constants.inverse_mass, torque }
+}
+
+/// Wakes the body of a row at `time` within the step if it sleeps, and gives gravity back to it.
+pub(crate) fn rouse(bodies: &mut Bodies, row: usize, law: RestLaw, time: f64) {
+    if bodies.wake(row) {
+        bodies.ways[row] = bodies.way(row, time);
+        bodies.clocks[row] = time;
+        bodies.influences[row] = free_influence(bodies, row, law.gravity);
+        set_pace(bodies, row, law.step);
+    }
 }
 
 /// Advances one body along its flight to `time` within the step.

@@ -1,0 +1,293 @@
+//! Several contacts struck at one instant: impulses for all of them together.
+//!
+//! The seed's five steps with a *direction of the whole system* in place of one normal. With `v` the velocities of all bodies,
+//! `M` their masses and inertias, and for each contact `i` the closing speed `v_i⁻ = J_i v < 0`:
+//!
+//! 1. Find impulses `λ ≥ 0` such that each contact parts with at least `v_i⁺ ≥ −C_r,i·v_i⁻`, and with just that where `λ_i > 0`:
+//!    projected Gauss–Seidel, each contact in turn by the seed's formula.
+//! 2. Take all of them together as one first, wrong impulse `D = Σ λ_i J_i`. It changes the velocities by `M⁻¹D`.
+//! 3. Its closing speed is `v_D = D·v`, and a unit of it changes that by `K_D = D·M⁻¹D`.
+//! 4. Linear again: some multiple of it gives the parting speed `−C_r·v_D`, with `C_r` weighted by what each contact does.
+//! 5. Solve for `f = −(1 + C_r)·v_D / K_D`, and apply `f·λ_i` at each contact.
+//!
+//! # Books
+//! Momentum: equal and opposite impulses, at one point each. Energy changes by `−½(1 − C_r²)·v_D²/K_D`, *whatever* `λ` the first
+//! step came to: it cannot grow, and is kept for C_r = 1, converged or not. With friction never more than that.
+//!
+//! # Reference
+//! Smith, Kaufman, Vouga, Tamstorf, Grinspun, *Reflections on Simultaneous Impact* (SIGGRAPH 2012): the generalized reflection, which alone
+//! lets a pair break away, keeps symmetry, energy, momentum, and only pushes. The weighting for different C_r and the
+//! scaling are ours.
+
+use crate::impulse::{Contact, Resolution, Side, Velocity, resolve};
+use crate::math::{DMat3, DVec3, any_tangent};
+
+/// Sweeps over all contacts of a round: for what acts along the normals, and with friction.
+const SWEEPS: usize = 400;
+const FRICTION_SWEEPS: usize = 100;
+
+/// The sweeps end when they change no speed by more than this share of the fastest.
+const AGREEMENT: f64 = 1e-14;
+const FRICTION_AGREEMENT: f64 = 1e-10;
+
+/// Impulses to start a round from, and the change of speed (m/s) that is not worth a sweep.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Start<'a> {
+    pub blows: &'a [Blow],
+    pub negligible: f64,
+}
+
+/// A body at the instant.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Mover {
+    /// Infinite for what no impulse can move, kg.
+    pub mass: f64,
+    /// Zero on axes of infinite inertia.
+    pub inertia: DMat3,
+    pub inverse_inertia: DMat3,
+    pub velocity: Velocity,
+}
+
+/// A place where two bodies touch, or are tied.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Spot {
+    /// Which two movers.
+    pub movers: [usize; 2],
+    /// Lever arms, m.
+    pub arms: [DVec3; 2],
+    pub contact: Contact,
+    /// Whether it also pulls: the row of a joint, which keeps its speed along the normal at zero.
+    pub pulls: bool,
+}
+
+/// What a spot gets: the impulse on its second body, N·s, split along the normal.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Blow {
+    pub normal: f64,
+    pub tangent: DVec3,
+    pub sticks: bool,
+}
+
+impl Blow {
+    fn impulse(&self, spot: &Spot) -> DVec3 {
+        self.normal * spot.contact.normal + self.tangent
+    }
+}
+
+impl Spot {
+    /// One of its bodies, as the seed sees it.
+    pub fn side(&self, movers: &[Mover], side: usize) -> Side {
+        let Mover { mass, inertia, inverse_inertia, velocity } = movers[self.movers[side]];
+        Side { mass, inertia, inverse_inertia, arm: self.arms[side], velocity }
+    }
+
+    /// Velocity of the second body's point against the first's, m/s.
+    pub fn velocity(&self, velocities: impl Fn(usize) -> Velocity) -> DVec3 {
+        velocities(self.movers[1]).at(self.arms[1]) - velocities(self.movers[0]).at(self.arms[0])
+    }
+
+    fn is_rough(&self) -> bool {
+        self.contact.static_friction > 0.0 || self.contact.dynamic_friction > 0.0
+    }
+
+    /// What the contact's own rule asks for: the least speed along the normal afterwards.
+    fn wanted(&self, before: f64) -> f64 {
+        if self.pulls { 0.0 } else { self.contact.restitution * (-before).max(0.0) }
+    }
+}
+
+/// Impulses for all `spots` of a round. The first of them may have got some already.
+pub(crate) fn reflect(movers: &[Mover], spots: &[Spot], start: Start<'_>) -> Vec<Blow> {
+    if let [spot] = spots
+        && !spot.pulls
+    {
+        let Resolution { fraction, friction_impulse, sticks, .. } =
+            resolve(&spot.side(movers, 0), &spot.side(movers, 1), &spot.contact);
+        return vec![Blow { normal: fraction, tangent: friction_impulse, sticks }];
+    }
+    let mut round = Round::new(movers, spots, start);
+    round.push_along_normals();
+    round.scale();
+    if spots.iter().any(Spot::is_rough) {
+        round.rub();
+    }
+    round.blows
+}
+
+/// The velocities after `blows`.
+pub(crate) fn velocities_after(movers: &[Mover], spots: &[Spot], blows: &[Blow]) -> Vec<Velocity> {
+    let mut velocities: Vec<Velocity> = movers.iter().map(|mover| mover.velocity).collect();
+    for (spot, blow) in spots.iter().zip(blows) {
+        push(movers, &mut velocities, spot, blow.impulse(spot));
+    }
+    velocities
+}
+
+fn push(movers: &[Mover], velocities: &mut [Velocity], spot: &Spot, impulse: DVec3) {
+    for (side, impulse) in [(0, -impulse), (1, impulse)] {
+        let mover = &movers[spot.movers[side]];
+        let velocity = &mut velocities[spot.movers[side]];
+        velocity.linear += impulse / mover.mass;
+        velocity.angular += mover.inverse_inertia * spot.arms[side].cross(impulse);
+    }
+}
+
+/// A round while its impulses are sought.
+struct Round<'a> {
+    movers: &'a [Mover],
+    spots: &'a [Spot],
+    rows: Vec<Row>,
+    /// With the present blows.
+    velocities: Vec<Velocity>,
+    blows: Vec<Blow>,
+    /// What speeds are compared with, m/s.
+    fastest: f64,
+    negligible: f64,
+}
+
+/// What a spot's impulses do to its own point.
+struct Row {
+    /// Speed along the normal before, m/s.
+    before: f64,
+    /// K: from an impulse at the point to the change of velocity there, 1/kg.
+    response: DMat3,
+    tangents: [DVec3; 2],
+}
+
+impl<'a> Round<'a> {
+    fn new(movers: &'a [Mover], spots: &'a [Spot], start: Start<'_>) -> Self {
+        let velocities: Vec<Velocity> = movers.iter().map(|mover| mover.velocity).collect();
+        let row = |spot: &Spot| {
+            let normal = spot.contact.normal;
+            let sides = [spot.side(movers, 0), spot.side(movers, 1)];
+            let first = any_tangent(normal);
+            Row {
+                before: spot.velocity(|mover| velocities[mover]).dot(normal),
+                response: sides[0].inverse_effective_mass() + sides[1].inverse_effective_mass(),
+                tangents: [first, normal.cross(first)],
+            }
+        };
+        let rows: Vec<Row> = spots.iter().map(row).collect();
+        let fastest = rows.iter().map(|row| row.before.abs()).fold(0.0, f64::max);
+        let mut blows = vec![Blow::default(); spots.len()];
+        for (blow, earlier) in blows.iter_mut().zip(start.blows) {
+            blow.normal = earlier.normal;
+        }
+        let velocities = velocities_after(movers, spots, &blows);
+        Self { movers, spots, rows, velocities, blows, fastest, negligible: start.negligible }
+    }
+
+    fn velocity(&self, index: usize) -> DVec3 {
+        self.spots[index].velocity(|mover| self.velocities[mover])
+    }
+
+    /// Gives spot `index` a further impulse, of which `along` is the part along the normal.
+    fn strike(&mut self, index: usize, along: f64, across: DVec3) {
+        let spot = &self.spots[index];
+        self.blows[index].normal += along;
+        self.blows[index].tangent += across;
+        push(self.movers, &mut self.velocities, spot, along * spot.contact.normal + across);
+    }
+
+    /// The seed's formula for one spot among others; how much it changes its speed, m/s.
+    fn push_along_normal(&mut self, index: usize) -> f64 {
+        let (spot, row) = (&self.spots[index], &self.rows[index]);
+        let normal = spot.contact.normal;
+        let per_impulse = normal.dot(row.response * normal);
+        if per_impulse <= 0.0 {
+            return 0.0;
+        }
+        let lack = spot.wanted(row.before) - self.velocity(index).dot(normal);
+        let old = self.blows[index].normal;
+        let new = old + lack / per_impulse;
+        let new = if spot.pulls { new } else { new.max(0.0) };
+        self.strike(index, new - old, DVec3::ZERO);
+        (new - old).abs() * per_impulse
+    }
+
+    /// Step 1.
+    fn push_along_normals(&mut self) {
+        for _ in 0..SWEEPS {
+            let change = (0..self.spots.len()).map(|index| self.push_along_normal(index)).fold(0.0, f64::max);
+            if change <= (AGREEMENT * self.fastest).max(self.negligible) {
+                break;
+            }
+        }
+    }
+
+    /// Steps 2 to 5.
+    fn scale(&mut self) {
+        let (mut closing, mut bounced, mut per_unit) = (0.0, 0.0, 0.0);
+        for (index, blow) in self.blows.iter().enumerate() {
+            let (spot, before) = (&self.spots[index], self.rows[index].before);
+            let gained = self.velocity(index).dot(spot.contact.normal) - before;
+            closing += blow.normal * before;
+            bounced += blow.normal * before * spot.contact.restitution;
+            per_unit += blow.normal * gained;
+        }
+        if per_unit > 0.0 {
+            let fraction = -(closing + bounced) / per_unit;
+            self.blows.iter_mut().for_each(|blow| blow.normal *= fraction.max(0.0));
+            self.velocities = velocities_after(self.movers, self.spots, &self.blows);
+        }
+    }
+
+    /// Adds friction, as much of it as takes energy away and gives none.
+    ///
+    /// From the impulses `j₀` without friction to those with it, `j`, all between them keep to Newton's rule and to the cones, which are
+    /// convex. On the way the energy changes by `a·(d·u₀) + ½a²·(d·Kd)` with `d = j − j₀`; the way ends where this would become positive.
+    fn rub(&mut self) {
+        let (smooth, before) = (self.blows.clone(), self.velocities.clone());
+        for _ in 0..FRICTION_SWEEPS {
+            let change = (0..self.spots.len())
+                .map(|index| self.rub_one(index).max(self.push_along_normal(index)))
+                .fold(0.0, f64::max);
+            if change <= (FRICTION_AGREEMENT * self.fastest).max(self.negligible) {
+                break;
+            }
+        }
+        let (mut first, mut second) = (0.0, 0.0);
+        for (index, (spot, blow)) in self.spots.iter().zip(&self.blows).enumerate() {
+            let further = blow.impulse(spot) - smooth[index].impulse(spot);
+            let without = spot.velocity(|mover| before[mover]);
+            first += further.dot(without);
+            second += further.dot(self.velocity(index) - without);
+        }
+        let share = if second > 0.0 { (-2.0 * first / second).clamp(0.0, 1.0) } else { 0.0 };
+        if share < 1.0 {
+            for (blow, smooth) in self.blows.iter_mut().zip(&smooth) {
+                blow.normal = smooth.normal + share * (blow.normal - smooth.normal);
+                blow.tangent *= share;
+                blow.sticks = false;
+            }
+            self.velocities = velocities_after(self.movers, self.spots, &self.blows);
+        }
+    }
+
+    /// Friction at one spot among others: it ends the slip if the cone allows it; how much it changes its velocity, m/s.
+    fn rub_one(&mut self, index: usize) -> f64 {
+        let (spot, row) = (&self.spots[index], &self.rows[index]);
+        if !spot.is_rough() {
+            return 0.0;
+        }
+        let [s, t] = row.tangents;
+        let slip = self.velocity(index);
+        let (bend_s, bend_t) = (row.response * s, row.response * t);
+        let (ss, st, tt) = (s.dot(bend_s), s.dot(bend_t), t.dot(bend_t));
+        let determinant = ss * tt - st * st;
+        if determinant <= 1e-12 * (ss + tt) * (ss + tt) {
+            return 0.0;
+        }
+        let (u, w) = (slip.dot(s), slip.dot(t));
+        let old = self.blows[index].tangent;
+        let ending = old - ((tt * u - st * w) * s + (ss * w - st * u) * t) / determinant;
+        let pressed = self.blows[index].normal.max(0.0);
+        let sticks = ending.length() <= spot.contact.static_friction * pressed;
+        let limit = spot.contact.dynamic_friction * pressed;
+        let new = if sticks { ending } else { ending.clamp_length_max(limit) };
+        self.blows[index].sticks = sticks;
+        let changed = (row.response * (new - old)).length();
+        self.strike(index, 0.0, new - old);
+        changed
+    }
+}
