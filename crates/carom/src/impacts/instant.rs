@@ -18,13 +18,15 @@ use crate::math::DVec3;
 use crate::report::Impact;
 use crate::step::motion::{advance, rouse};
 use crate::step::pairs::Pairs;
+use crate::step::rest::pressed_speed;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// So many rounds are carried out at once; what still closes then goes on in the next substep.
 const ROUNDS: u32 = 1024;
 
-/// So many contacts may push in one round.
-const CROWD: usize = 512;
+/// So many bodies that rest against each other get all impulses of an instant at that instant. Where more do, contacts that do not
+/// bounce get theirs at the end of the substep if they cannot go far until then.
+const CROWD: usize = 32;
 
 /// What will touch within this share of a substep touches at the same instant.
 const SIMULTANEOUS: f64 = 1e-3;
@@ -79,6 +81,8 @@ pub(crate) struct Instant<'a> {
     places: Vec<Place>,
     places_of: Vec<Vec<usize>>,
     gathered: BTreeSet<usize>,
+    /// Whether so much hangs together here that what is pressed lightly is left to the contacts.
+    is_crowded: bool,
     outcome: Outcome,
 }
 
@@ -103,8 +107,10 @@ impl<'a> Instant<'a> {
             places: Vec::new(),
             places_of: Vec::new(),
             gathered: BTreeSet::new(),
+            is_crowded: false,
             outcome: Outcome::default(),
         };
+        instant.is_crowded = instant.is_crowd(first);
         instant.gather(first);
         if !instant.places.iter().any(|place| place.closing(&instant.movers) > place.rest_speed) {
             instant.add(first, &Manifold::single(touch.normal, touch.contact), touch.rest_speed, f64::MAX);
@@ -146,6 +152,24 @@ impl<'a> Instant<'a> {
         self.outcome.rows.sort_unstable();
         self.outcome.rows.dedup();
         self.outcome
+    }
+
+    /// Whether more than [`CROWD`] bodies rest against each other around a pair.
+    fn is_crowd(&self, first: usize) -> bool {
+        let movable = |row: usize| row != WORLD_ROW && self.bodies.constants[row].is_movable();
+        let mut rows: Vec<usize> = self.pairs[first].rows.into_iter().filter(|&row| movable(row)).collect();
+        let mut next = 0;
+        while next < rows.len() && rows.len() <= CROWD {
+            let row = rows[next];
+            next += 1;
+            for number in 0..self.pairs.count_of_row(row) {
+                let pair = &self.pairs[self.pairs.of_row(row, number)];
+                let new = pair.rows.into_iter().filter(|other| pair.rests && !rows.contains(other));
+                let new: Vec<usize> = new.filter(|&row| movable(row)).collect();
+                rows.extend(new);
+            }
+        }
+        rows.len() > CROWD
     }
 
     /// The mover of a row.
@@ -192,8 +216,10 @@ impl<'a> Instant<'a> {
         }
         let mut manifolds = Vec::new();
         approach.manifolds(self.time, margin, &mut manifolds);
+        let is_left = self.is_crowded && pair.rests && pair.surface.restitution == 0.0;
+        let left = if is_left { pressed_speed(self.bodies, pair, self.law) } else { 0.0 };
         let rest_speeds: Vec<f64> =
-            manifolds.iter().map(|manifold| approach.rest_speed(manifold.normal)).collect();
+            manifolds.iter().map(|manifold| approach.rest_speed(manifold.normal).max(left)).collect();
         for (manifold, rest_speed) in manifolds.iter().zip(rest_speeds) {
             self.add(index, manifold, rest_speed, touching);
         }
@@ -280,7 +306,7 @@ impl<'a> Instant<'a> {
                 let closing = -spot.velocity(velocity).dot(spot.contact.normal);
                 spot.contact.restitution == 0.0 && !struck.contains(index) && self.strikes(*index, closing)
             });
-            if more.is_empty() || struck.len() >= CROWD {
+            if more.is_empty() {
                 return (struck, blows);
             }
             struck.append(&mut more);

@@ -151,23 +151,31 @@ struct Row {
     before: f64,
     /// K: from an impulse at the point to the change of velocity there, 1/kg.
     response: DMat3,
-    tangents: [DVec3; 2],
+    /// The most that an impulse across the normal changes the velocity across it, 1/kg.
+    yielding: f64,
+}
+
+impl Row {
+    fn new(movers: &[Mover], spot: &Spot) -> Self {
+        let normal = spot.contact.normal;
+        let (a, b) = (spot.side(movers, 0), spot.side(movers, 1));
+        let response = a.inverse_effective_mass() + b.inverse_effective_mass();
+        let first = any_tangent(normal);
+        let second = normal.cross(first);
+        let (bend_first, bend_second) = (response * first, response * second);
+        let mean = 0.5 * (first.dot(bend_first) + second.dot(bend_second));
+        let half = 0.5 * (first.dot(bend_first) - second.dot(bend_second));
+        Row {
+            before: (b.velocity.at(b.arm) - a.velocity.at(a.arm)).dot(normal),
+            response,
+            yielding: mean + half.hypot(first.dot(bend_second)),
+        }
+    }
 }
 
 impl<'a> Round<'a> {
     fn new(movers: &'a [Mover], spots: &'a [Spot], start: Start<'_>) -> Self {
-        let velocities: Vec<Velocity> = movers.iter().map(|mover| mover.velocity).collect();
-        let row = |spot: &Spot| {
-            let normal = spot.contact.normal;
-            let sides = [spot.side(movers, 0), spot.side(movers, 1)];
-            let first = any_tangent(normal);
-            Row {
-                before: spot.velocity(|mover| velocities[mover]).dot(normal),
-                response: sides[0].inverse_effective_mass() + sides[1].inverse_effective_mass(),
-                tangents: [first, normal.cross(first)],
-            }
-        };
-        let rows: Vec<Row> = spots.iter().map(row).collect();
+        let rows: Vec<Row> = spots.iter().map(|spot| Row::new(movers, spot)).collect();
         let fastest = rows.iter().map(|row| row.before.abs()).fold(0.0, f64::max);
         let mut blows = vec![Blow::default(); spots.len()];
         for (blow, earlier) in blows.iter_mut().zip(start.blows) {
@@ -267,27 +275,24 @@ impl<'a> Round<'a> {
     /// Friction at one spot among others: it ends the slip if the cone allows it; how much it changes its velocity, m/s.
     fn rub_one(&mut self, index: usize) -> f64 {
         let (spot, row) = (&self.spots[index], &self.rows[index]);
-        if !spot.is_rough() {
+        if !spot.is_rough() || row.yielding <= 0.0 {
             return 0.0;
         }
-        let [s, t] = row.tangents;
         let slip = self.velocity(index);
-        let (bend_s, bend_t) = (row.response * s, row.response * t);
-        let (ss, st, tt) = (s.dot(bend_s), s.dot(bend_t), t.dot(bend_t));
-        let determinant = ss * tt - st * st;
-        if determinant <= 1e-12 * (ss + tt) * (ss + tt) {
-            return 0.0;
-        }
-        let (u, w) = (slip.dot(s), slip.dot(t));
+        let across = slip - slip.dot(spot.contact.normal) * spot.contact.normal;
+        // The step of a gradient: where it slides, what is left points against the slip.
         let old = self.blows[index].tangent;
-        let ending = old - ((tt * u - st * w) * s + (ss * w - st * u) * t) / determinant;
+        let ending = old - across / row.yielding;
         let pressed = self.blows[index].normal.max(0.0);
         let sticks = ending.length() <= spot.contact.static_friction * pressed;
         let limit = spot.contact.dynamic_friction * pressed;
         let new = if sticks { ending } else { ending.clamp_length_max(limit) };
         self.blows[index].sticks = sticks;
-        let changed = (row.response * (new - old)).length();
+        let changed = row.yielding * (new - old).length();
         self.strike(index, 0.0, new - old);
         changed
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -172,7 +172,7 @@ impl Rest {
         let left = span.until - span.from;
         let grain = bodies.grains[pair.rows[0]].min(bodies.grains[pair.rows[1]]);
         let horizon = horizon(pair, grain, law);
-        let pressed = if pair.surface.restitution > 0.0 { 0.0 } else { PRESSED * grain / law.substep };
+        let pressed = if pair.surface.restitution > 0.0 { 0.0 } else { pressed_speed(bodies, pair, law) };
         let motion = pair.rows.map(|row| {
             let state = &bodies.states[row];
             (state.velocity, bodies.constants[row].angular_velocity(state))
@@ -201,6 +201,11 @@ impl Rest {
 /// A resting pair that loses its speed in a collision is left to the contacts if it would go no further into the other body
 /// within a substep than this share of the smaller reach.
 const PRESSED: f64 = 0.02;
+
+/// The speed (m/s) with which it goes so far.
+pub(crate) fn pressed_speed(bodies: &Bodies, pair: &Pair, law: RestLaw) -> f64 {
+    PRESSED * bodies.grains[pair.rows[0]].min(bodies.grains[pair.rows[1]]) / law.substep
+}
 
 /// Gap (m) up to which the contacts of a resting pair see to a point: what does not bounce and comes no faster than contacts can
 /// be left to deal with is stopped by them, at the end of the substep in which it touches. Faster points, and all that bounce,
