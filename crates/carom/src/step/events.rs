@@ -217,6 +217,7 @@ impl<'a> Events<'a> {
             self.reroute(row, span);
         }
         for pair in outcome.unfinished {
+            self.rest.hand_back(self.pairs, pair);
             let now = &mut self.pairs[pair].now;
             now.stamp += 1;
             now.asked_until = span.until;

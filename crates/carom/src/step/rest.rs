@@ -142,13 +142,25 @@ impl Rest {
             let has_left = |support: &Support| get(support, field::GAP) > get(support, field::HORIZON);
             let pair = &mut pairs[index];
             if pair.supports.iter().all(has_left) {
-                self.drop_contacts(pair);
-                pair.rests = false;
-                pair.supports.clear();
+                self.end(pair);
             }
         }
         self.resting = resting;
         self.resting.retain(|&index| pairs[index].rests);
+    }
+
+    fn end(&mut self, pair: &mut Pair) {
+        self.drop_contacts(pair);
+        pair.rests = false;
+        pair.supports.clear();
+    }
+
+    /// Hands a pair back to the impacts, if it rests.
+    pub fn hand_back(&mut self, pairs: &mut Pairs, index: usize) {
+        if pairs[index].rests {
+            self.end(&mut pairs[index]);
+            self.resting.retain(|&other| other != index);
+        }
     }
 
     /// The pairs that touch.
