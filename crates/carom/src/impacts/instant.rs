@@ -6,7 +6,9 @@
 //! faster than the rest threshold.
 //!
 //! Contacts that bounce wait for their round, so that momentum passes through a row of balls and the last one breaks away. Those with
-//! C_r = 0 have nothing to wait for: where a round would make them close, they push in the same round.
+//! C_r = 0 have nothing to wait for: where a round would make them close, they push in the same round. Where many bodies rest
+//! against each other, what a blow presses lightly is left to the contacts that hold it
+//! ([`Rest::left_speed`](crate::step::rest::Rest::left_speed)).
 
 use crate::bodies::{Bodies, WORLD_ROW};
 use crate::collide::{ContactPoint, Manifold};
@@ -18,15 +20,11 @@ use crate::math::DVec3;
 use crate::report::Impact;
 use crate::step::motion::{advance, rouse};
 use crate::step::pairs::Pairs;
-use crate::step::rest::pressed_speed;
+use crate::step::rest::Rest;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// So many rounds are carried out at once; what still closes then goes on in the next substep.
 const ROUNDS: u32 = 1024;
-
-/// So many bodies that rest against each other get all impulses of an instant at that instant. Where more do, contacts that do not
-/// bounce get theirs at the end of the substep if they cannot go far until then.
-const CROWD: usize = 32;
 
 /// What will touch within this share of a substep touches at the same instant.
 const SIMULTANEOUS: f64 = 1e-3;
@@ -67,7 +65,8 @@ pub(crate) struct Outcome {
 /// The bodies and contacts of an instant.
 pub(crate) struct Instant<'a> {
     bodies: &'a mut Bodies,
-    pairs: &'a mut Pairs,
+    pairs: &'a Pairs,
+    rest: &'a Rest,
     law: RestLaw,
     /// Within the step, s.
     time: f64,
@@ -81,8 +80,6 @@ pub(crate) struct Instant<'a> {
     places: Vec<Place>,
     places_of: Vec<Vec<usize>>,
     gathered: BTreeSet<usize>,
-    /// Whether so much hangs together here that what is pressed lightly is left to the contacts.
-    is_crowded: bool,
     outcome: Outcome,
 }
 
@@ -90,13 +87,14 @@ impl<'a> Instant<'a> {
     /// The instant `time` at which the pair `first` touches.
     pub fn new(
         bodies: &'a mut Bodies,
-        pairs: &'a mut Pairs,
+        (pairs, rest): (&'a Pairs, &'a Rest),
         (first, touch): (usize, &Touch),
         (law, time): (RestLaw, f64),
     ) -> Self {
         let mut instant = Self {
             bodies,
             pairs,
+            rest,
             law,
             time,
             window: -touch.closing_speed * SIMULTANEOUS * law.substep,
@@ -107,10 +105,8 @@ impl<'a> Instant<'a> {
             places: Vec::new(),
             places_of: Vec::new(),
             gathered: BTreeSet::new(),
-            is_crowded: false,
             outcome: Outcome::default(),
         };
-        instant.is_crowded = instant.is_crowd(first);
         instant.gather(first);
         if !instant.places.iter().any(|place| place.closing(&instant.movers) > place.rest_speed) {
             instant.add(first, &Manifold::single(touch.normal, touch.contact), touch.rest_speed, f64::MAX);
@@ -152,24 +148,6 @@ impl<'a> Instant<'a> {
         self.outcome.rows.sort_unstable();
         self.outcome.rows.dedup();
         self.outcome
-    }
-
-    /// Whether more than [`CROWD`] bodies rest against each other around a pair.
-    fn is_crowd(&self, first: usize) -> bool {
-        let movable = |row: usize| row != WORLD_ROW && self.bodies.constants[row].is_movable();
-        let mut rows: Vec<usize> = self.pairs[first].rows.into_iter().filter(|&row| movable(row)).collect();
-        let mut next = 0;
-        while next < rows.len() && rows.len() <= CROWD {
-            let row = rows[next];
-            next += 1;
-            for number in 0..self.pairs.count_of_row(row) {
-                let pair = &self.pairs[self.pairs.of_row(row, number)];
-                let new = pair.rows.into_iter().filter(|other| pair.rests && !rows.contains(other));
-                let new: Vec<usize> = new.filter(|&row| movable(row)).collect();
-                rows.extend(new);
-            }
-        }
-        rows.len() > CROWD
     }
 
     /// The mover of a row.
@@ -216,8 +194,7 @@ impl<'a> Instant<'a> {
         }
         let mut manifolds = Vec::new();
         approach.manifolds(self.time, margin, &mut manifolds);
-        let is_left = self.is_crowded && pair.rests && pair.surface.restitution == 0.0;
-        let left = if is_left { pressed_speed(self.bodies, pair, self.law) } else { 0.0 };
+        let left = if pair.rests { self.rest.left_speed(self.bodies, pair, self.law) } else { 0.0 };
         let rest_speeds: Vec<f64> =
             manifolds.iter().map(|manifold| approach.rest_speed(manifold.normal).max(left)).collect();
         for (manifold, rest_speed) in manifolds.iter().zip(rest_speeds) {
@@ -272,13 +249,16 @@ impl<'a> Instant<'a> {
         places
     }
 
-    /// Whether a place is struck if it closes with `closing`.
+    /// Whether a place is struck if it closes with `closing`. One that was struck before at this instant and has lost speed in it
+    /// rattles: gravity makes an end of that, whichever way the normal points.
     fn strikes(&self, index: usize, closing: f64) -> bool {
         let place = &self.places[index];
         let is_near = place.touches
             || place.is_struck
             || place.contact.separation <= SIMULTANEOUS * self.law.substep * closing;
-        is_near && closing > place.rest_speed
+        let rattles = place.is_struck && place.spot.contact.restitution < 1.0;
+        let slowest = if rattles { place.rest_speed.max(self.law.rest_speed()) } else { place.rest_speed };
+        is_near && closing > slowest
     }
 
     /// Finds the impulses of a round in which at least `struck` push; returns which do.

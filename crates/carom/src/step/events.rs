@@ -201,7 +201,7 @@ impl<'a> Events<'a> {
     /// Carries out a collision, with all that is struck at the same instant.
     fn strike(&mut self, index: usize, touch: &Touch, span: Span) {
         let at = (self.law, span.from);
-        let outcome = Instant::new(self.bodies, self.pairs, (index, touch), at).resolve();
+        let outcome = Instant::new(self.bodies, (self.pairs, self.rest), (index, touch), at).resolve();
         let rounds = outcome.impacts.iter().map(|impact| impact.round + 1).max().unwrap_or(0);
         self.impacts.extend(
             outcome.impacts.into_iter().map(|impact| Impact { round: self.rounds + impact.round, ..impact }),

@@ -15,9 +15,11 @@
 //! rest.rs           which pairs the contacts own, from when until when
 //! rest/renew.rs     contacts looked at anew where bodies have moved
 //! rest/remember.rs  what pressed goes on pressing
+//! rest/crowds.rs    where many bodies rest against each other
 //! rest/hold.rs      impulses, and the paths that they give; overlaps out; rest capture
 //! ```
 
+mod crowds;
 mod hold;
 mod remember;
 mod renew;
@@ -32,6 +34,7 @@ use crate::solver::graph::Graph;
 use crate::solver::rows::Rows;
 use crate::step::motion::advance;
 use crate::step::pairs::{Pair, Pairs, Support};
+use crowds::Crowds;
 
 /// Contacts, and the bodies that they hold.
 pub(crate) struct Rest {
@@ -39,6 +42,7 @@ pub(crate) struct Rest {
     rows: Rows,
     /// The pairs that rest, in the order in which they came to.
     resting: Vec<usize>,
+    crowds: Crowds,
 }
 
 /// A stretch of a step.
@@ -50,7 +54,7 @@ pub(crate) struct Span {
 
 impl Rest {
     pub fn new() -> Self {
-        Self { graph: Graph::default(), rows: Rows::new(), resting: Vec::new() }
+        Self { graph: Graph::default(), rows: Rows::new(), resting: Vec::new(), crowds: Crowds::default() }
     }
 
     /// Starts a step with other pairs; those that have `parted` lose their contacts.
@@ -58,6 +62,7 @@ impl Rest {
         self.rows.grow(bodies.states.len());
         parted.iter().for_each(|pair| self.drop_contacts(pair));
         self.resting = (0..pairs.len()).filter(|&index| pairs[index].rests).collect();
+        self.crowds.find(bodies, self.resting.iter().map(|&index| pairs[index].rows));
         let mut goes_on = true;
         while goes_on {
             goes_on = false;
@@ -178,13 +183,34 @@ impl Rest {
         })
     }
 
+    /// Closing speed (m/s) up to which a point of a pair that rests, struck on from elsewhere, is left to the contacts. They
+    /// stop it at the end of the substep, without a bounce. It is 0 where few bodies rest against each other, so that these get
+    /// their impulses at the instant; and for what bounces without loss, or bears no load (balls that just touch in a row).
+    pub fn left_speed(&self, bodies: &Bodies, pair: &Pair, law: RestLaw) -> f64 {
+        let restitution = pair.surface.restitution;
+        let is_left = self.crowds.has(pair.rows)
+            && (restitution == 0.0 || (restitution < 1.0 && self.bears_load(bodies, pair, law)));
+        if is_left { PRESSED * grain(bodies, pair) / law.substep } else { 0.0 }
+    }
+
+    /// Whether contacts have pushed a pair with more than a trace of a body's weight.
+    fn bears_load(&self, bodies: &Bodies, pair: &Pair, law: RestLaw) -> bool {
+        let movable = pair.rows.map(|row| bodies.constants[row].inverse_mass).into_iter();
+        let weight = law.gravity.length() * law.substep / movable.fold(f64::MIN_POSITIVE, f64::max);
+        let pushed = pair.supports.iter().flat_map(|support| {
+            (0..support.features().len())
+                .map(|point| self.graph.get(support.contact, field::of_point(point, field::IMPULSE)))
+        });
+        pushed.map(f64::from).sum::<f64>() > TRACE * weight
+    }
+
     /// Whether a point of a pair that rests will strike in the time left of a substep: one that comes from further away than
     /// contacts reach, or one that a collision has set in motion.
     pub fn is_driven(&self, bodies: &Bodies, pair: &Pair, law: RestLaw, span: Span) -> bool {
         let left = span.until - span.from;
-        let grain = bodies.grains[pair.rows[0]].min(bodies.grains[pair.rows[1]]);
+        let grain = grain(bodies, pair);
         let horizon = horizon(pair, grain, law);
-        let pressed = if pair.surface.restitution > 0.0 { 0.0 } else { pressed_speed(bodies, pair, law) };
+        let pressed = if pair.surface.restitution > 0.0 { 0.0 } else { PRESSED * grain / law.substep };
         let motion = pair.rows.map(|row| {
             let state = &bodies.states[row];
             (state.velocity, bodies.constants[row].angular_velocity(state))
@@ -214,9 +240,11 @@ impl Rest {
 /// within a substep than this share of the smaller reach.
 const PRESSED: f64 = 0.02;
 
-/// The speed (m/s) with which it goes so far.
-pub(crate) fn pressed_speed(bodies: &Bodies, pair: &Pair, law: RestLaw) -> f64 {
-    PRESSED * bodies.grains[pair.rows[0]].min(bodies.grains[pair.rows[1]]) / law.substep
+/// A pair whose contacts push with less than this share of the lighter body's weight bears no load.
+const TRACE: f64 = 0.01;
+
+fn grain(bodies: &Bodies, pair: &Pair) -> f64 {
+    bodies.grains[pair.rows[0]].min(bodies.grains[pair.rows[1]])
 }
 
 /// Gap (m) up to which the contacts of a resting pair see to a point: what does not bounce and comes no faster than contacts can
