@@ -138,48 +138,73 @@ impl Table for Json {
     }
 }
 
-/// The cells of a row, one line in them for each figure.
-fn cells(measured: &Measured<'_>) -> [String; 9] {
-    let figures = || measured.row.figures.iter();
-    let with_unit = |text: String, figure: &Figure| format!("{text} {}", figure.unit).trim_end().to_owned();
-    let lines = |lines: Vec<String>| lines.join("<br>");
-    let values = figures().zip(&measured.numbers).map(|(figure, &value)| {
-        let text = shown(figure, value);
-        if figure.is_reached(value) { text } else { format!("**{text}**, not yet") }
-    });
-    let peer = |k: usize| {
-        let texts = figures().map(|figure| figure.peers.map_or("", |peers| peers[k]).to_owned());
-        lines(texts.collect()).trim_end_matches("<br>").to_owned()
+/// The lines of a row, one for each figure: nine cells.
+fn cells(measured: &Measured<'_>) -> Vec<[String; 9]> {
+    let Row { name, what, figures, .. } = measured.row;
+    let line = |(k, (figure, &value)): (usize, (&Figure, &f64))| {
+        let value = match (shown(figure, value), figure.is_reached(value)) {
+            (text, true) => text,
+            (text, false) => format!("**{text}**"),
+        };
+        let truth = format!("{} {}", number(figure.truth), figure.unit);
+        let [a, b, c, d] = figure.peers.unwrap_or([""; 4]);
+        let (name, what) = match k {
+            0 => (format!("`{name}`"), format!("{what}: {}", figure.what)),
+            _ => (String::new(), figure.what.clone()),
+        };
+        [&name, &what, truth.trim_end(), &value, &goal(figure), a, b, c, d]
+            .map(|cell| cell.replace('|', "&#124;"))
     };
-    let what = format!("{}:<br>{}", measured.row.what, lines(figures().map(|f| f.what.clone()).collect()));
-    let below_what = |text: String| format!("<br>{text}");
-    [
-        format!("`{}`", measured.row.name),
-        what,
-        below_what(lines(figures().map(|figure| with_unit(number(figure.truth), figure)).collect())),
-        below_what(lines(values.collect())),
-        below_what(lines(figures().map(goal).collect())),
-        below_what(peer(0)),
-        below_what(peer(1)),
-        below_what(peer(2)),
-        below_what(peer(3)),
-    ]
+    figures.iter().zip(&measured.numbers).enumerate().map(line).collect()
 }
 
-fn markdown_row(cells: [&str; 9]) -> String {
-    let line = cells.map(|cell| format!("| {cell} ")).concat();
+fn markdown_line<T: AsRef<str>>(cells: &[T; 9]) -> String {
+    let line: String = cells.iter().map(|cell| format!("| {} ", cell.as_ref())).collect();
     format!("{line}|")
 }
 
 impl Table for Markdown {
     fn begin(&self, lines: &mut Lines) -> Result<(), Failure> {
         let [a, b, c, d] = PEERS;
-        lines.text(&markdown_row(["row", "what", "truth", "Carom", "goal", a, b, c, d]))?;
+        lines.text(&markdown_line(&["row", "what", "truth", "Carom", "goal", a, b, c, d]))?;
         lines.text(&format!("{}|", "|---".repeat(9)))
     }
 
     fn row(&self, lines: &mut Lines, measured: &Measured<'_>) -> Result<(), Failure> {
-        let cells = cells(measured);
-        lines.text(&markdown_row(cells.each_ref().map(String::as_str)))
+        cells(measured).iter().try_for_each(|cells| lines.text(&markdown_line(cells)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use carom_truth::suite;
+
+    /// A line without what Carom reaches, which may differ from machine to machine.
+    fn fixed(line: &str) -> Vec<&str> {
+        let cells = line.split('|').map(str::trim).enumerate();
+        cells.filter(|&(column, _)| column != 4).map(|(_, cell)| cell).collect()
+    }
+
+    #[test]
+    fn the_readme_has_the_rows_of_the_suite() {
+        let readme = include_str!("../../../README.md");
+        let table = readme.lines().skip_while(|line| !line.starts_with("| row | what |")).skip(2);
+        let found: Vec<Vec<&str>> = table.take_while(|line| line.starts_with('|')).map(fixed).collect();
+        let unmeasured = |row| Measured { row, numbers: vec![f64::NAN; row.figures.len()] };
+        let suite = suite();
+        let lines = suite.iter().flat_map(|row| cells(&unmeasured(row)));
+        let lines: Vec<String> = lines.map(|cells| markdown_line(&cells)).collect();
+        let expected: Vec<Vec<&str>> = lines.iter().map(|line| fixed(line)).collect();
+        assert_eq!(found, expected, "`carom truth --markdown` writes the table anew");
+    }
+
+    #[test]
+    fn goals_are_told_as_limits_distances_or_per_cent() {
+        let told = |truth: f64, of: Goal| goal(&Figure::new("way", "m", truth, of));
+        assert_eq!(told(0.0, Goal::Within(0.0)), "exactly");
+        assert_eq!(told(0.0, Goal::Within(1e-5)), "≤ 1e-5");
+        assert_eq!(told(2.0, Goal::Within(1e-3)), "± 0.001");
+        assert_eq!(told(2.0, Goal::Share(1e-3)), "± 0.1 %");
     }
 }

@@ -40,17 +40,16 @@ pub fn rows() -> Vec<Row> {
         .figure(
             Figure::new("rate of precession over 10 s", "rad/s", precession, Share(0.01))
                 .peers(["1.47", "1.43", "1.49", "1.49"])
-                .missed(STALE_ARMS),
+                .missed(FIRST_ORDER),
         )
         .figure(
-            Figure::new("largest change of tilt", "rad", 0.0, Within(0.01)).peers(["0.53", "0.62", "1.5", "1.5"]).missed(STALE_ARMS),
+            Figure::new("largest change of tilt", "rad", 0.0, Within(0.01)).peers(["0.53", "0.62", "1.5", "1.5"]).missed(FIRST_ORDER),
         ),
     ]
 }
 
-/// Both errors halve with the substep; the top also loses spin, which no force on its axis can take.
-const STALE_ARMS: &str =
-    "the lever arms of contacts are those of the start of a substep: an error of first order in it";
+/// Both errors halve with the substep; the top also loses spin, which no push through a point of its axis can take.
+const FIRST_ORDER: &str = "what contacts give to a body that spins is found for the start of a substep: an error of first order in it";
 
 fn free_fall() -> Vec<f64> {
     let velocity = DVec3::new(10.0, 20.0, 3.0);

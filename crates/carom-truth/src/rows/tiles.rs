@@ -71,7 +71,7 @@ impl Floor {
             Floor::Mesh => {
                 let corner = |k: u32| {
                     let x = start + f64::from(k / 2) * length;
-                    DVec3::new(x, 0.0, if k % 2 == 0 { -0.5 * width } else { 0.5 * width })
+                    DVec3::new(x, 0.0, [-0.5, 0.5][(k % 2) as usize] * width)
                 };
                 let vertices = (0..2 * (TILES + 1)).map(corner).collect();
                 let cut = |k: u32| [[2 * k, 2 * k + 1, 2 * k + 3], [2 * k, 2 * k + 3, 2 * k + 2]];
