@@ -15,9 +15,6 @@ mod together;
 
 use crate::row::Row;
 
-/// Why a figure misses its goal.
-const ONE_BY_ONE: &str = "impacts of one instant are resolved one after the other";
-
 /// All rows, in the order in which they are shown.
 pub fn suite() -> Vec<Row> {
     [

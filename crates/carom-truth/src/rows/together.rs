@@ -1,6 +1,5 @@
 //! Bodies that touch when one of them is struck, and those that only seem to.
 
-use super::ONE_BY_ONE;
 use crate::balls;
 use crate::closed::solids::{Form, Solid};
 use crate::closed::together::{elastic, one_onto_two, row_struck};
@@ -44,7 +43,7 @@ pub fn rows() -> Vec<Row> {
             "Bernoulli: −1/5 and 2√3/5",
             strike_two,
         )
-        .figure(off().missed(ONE_BY_ONE)),
+        .figure(off()),
         Row::new("both-ends", "a row of three is struck from both ends, C_r = 1", "symmetry: −v₀", both_ends)
             .figure(off()),
         Row::new(
@@ -53,7 +52,7 @@ pub fn rows() -> Vec<Row> {
             "one impact of m and 2·m_b; symmetry",
             bar_onto_two,
         )
-        .figure(off().missed(ONE_BY_ONE)),
+        .figure(off()),
         Row::new(
             "parting",
             "touching balls and boxes part, C_r 0 and 1, μ = 0.5",
