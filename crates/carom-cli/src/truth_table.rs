@@ -37,9 +37,9 @@ pub struct Markdown;
 fn goal(figure: &Figure) -> String {
     match figure.goal {
         Goal::Within(0.0) => "exactly".to_owned(),
-        Goal::Within(distance) if figure.truth == 0.0 => format!("≤ {}", rough(distance)),
-        Goal::Within(distance) => format!("± {}", rough(distance)),
-        Goal::Share(share) => format!("± {} %", rough(100.0 * share)),
+        Goal::Within(distance) if figure.truth == 0.0 => format!("≤ {}", number(distance)),
+        Goal::Within(distance) => format!("± {}", number(distance)),
+        Goal::Share(share) => format!("± {} %", number(100.0 * share)),
     }
 }
 
