@@ -14,7 +14,7 @@ use std::path::PathBuf;
 #[command(name = "carom", version, disable_help_subcommand = true)]
 #[command(after_help = "\
 SCENE is a file (*.json, *.gltf, *.glb) or the name of a built-in scene.
-Exit status: 0 done; 1 `check` found a violation; 2 bad input or arguments; 3 anything else that failed.")]
+Exit status: 0 done; 1 `check` found a violation or `truth` a goal that was missed; 2 bad input or arguments; 3 anything else that failed.")]
 pub struct Arguments {
     /// What to do.
     #[command(subcommand)]
@@ -30,6 +30,8 @@ pub enum Command {
     Check(RunArguments),
     /// Show the five steps of a collision with its numbers, and the three conditions.
     Explain(ExplainArguments),
+    /// Measure how near the engine comes to what mechanics fixes.
+    Truth(TruthArguments),
     /// List the built-in scenes.
     Scenes(ScenesArguments),
     /// Print the JSON Schema of scene files.
@@ -102,6 +104,23 @@ pub struct ExplainArguments {
     /// Print one JSON object on a line instead of text.
     #[arg(long)]
     pub json: bool,
+}
+
+/// Arguments of `truth`.
+#[derive(Debug, Args)]
+pub struct TruthArguments {
+    /// Which rows to measure [default: all].
+    #[arg(value_name = "ROW")]
+    pub rows: Vec<String>,
+    /// Print one JSON object a row instead of text.
+    #[arg(long, conflicts_with = "markdown")]
+    pub json: bool,
+    /// Print a Markdown table instead of text.
+    #[arg(long)]
+    pub markdown: bool,
+    /// No progress bar.
+    #[arg(long)]
+    pub quiet: bool,
 }
 
 /// Arguments of `scenes`.

@@ -8,6 +8,7 @@
 //! | `run`, `summary`, `trace` | `carom run` and what it writes |
 //! | `explain`, `explain_text`, `explain_json` | `carom explain` |
 //! | `check`, `audit` | `carom check`, and the laws it knows |
+//! | `truth`, `truth_table` | `carom truth`: what mechanics fixes, and how near the engine comes |
 //! | `list` | `carom scenes`, `carom schema` |
 //! | `output`, `text`, `failure` | whole lines, numbers for people, why something went wrong |
 
@@ -28,6 +29,8 @@ mod simulate;
 mod summary;
 mod text;
 mod trace;
+mod truth;
+mod truth_table;
 
 use arguments::Command;
 use failure::{Failure, one_line};
@@ -59,6 +62,7 @@ fn dispatch() -> Result<ExitCode, Failure> {
         Some(Command::Run(arguments)) => run::run(&arguments),
         Some(Command::Check(arguments)) => check::check(&arguments),
         Some(Command::Explain(arguments)) => explain::explain(&arguments),
+        Some(Command::Truth(arguments)) => truth::truth(&arguments),
         Some(Command::Scenes(arguments)) => list::scenes(&arguments),
         Some(Command::Schema) => list::schema(),
         Some(Command::View(_)) => Err(Failure::Input("view: not built yet".to_owned())),

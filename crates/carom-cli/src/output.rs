@@ -4,6 +4,7 @@
 //! with half a line: lines are gathered, and several whole ones handed over at once.
 
 use crate::failure::{Failure, one_line};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::Serialize;
 use std::fs::File;
 use std::io::{self, Write};
@@ -93,6 +94,20 @@ pub fn complain(message: &str) {
 /// Tells what is worth knowing but no error.
 pub fn note(message: &str) {
     complain(&format!("note: {}", one_line(message)));
+}
+
+/// A progress bar on the standard error over `length` of `what`, or, if it is not to be shown, none that can be seen.
+pub fn progress_bar(is_shown: bool, length: u64, what: &str) -> ProgressBar {
+    if !is_shown {
+        return ProgressBar::hidden();
+    }
+    let target = ProgressDrawTarget::stderr_with_hz(10);
+    let bar = ProgressBar::with_draw_target(Some(length), target);
+    let template = format!("{{bar:40}} {{percent:>3}} %  {{pos}}/{{len}} {what}  {{eta}} left");
+    match ProgressStyle::with_template(&template) {
+        Ok(style) => bar.with_style(style),
+        Err(_) => bar,
+    }
 }
 
 #[cfg(test)]

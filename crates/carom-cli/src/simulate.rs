@@ -3,11 +3,11 @@
 use crate::arguments::SimulationArguments;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
-use crate::output::note;
+use crate::output::{note, progress_bar};
 use crate::scenes;
 use carom::report::Impact;
 use carom::{BodyId, World};
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::ProgressBar;
 use std::io::IsTerminal;
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
@@ -97,7 +97,7 @@ impl Simulation {
         &mut self,
         mut watch: impl FnMut(&Moment<'_>) -> Result<ControlFlow<()>, Failure>,
     ) -> Result<Outcome, Failure> {
-        let bar = self.bar();
+        let bar = progress_bar(self.progress, self.n_steps, "steps");
         let outcome = self.steps(&bar, &mut watch);
         bar.finish_and_clear();
         outcome
@@ -147,18 +147,6 @@ impl Simulation {
             self.scene,
             names.join(", ")
         ))
-    }
-
-    fn bar(&self) -> ProgressBar {
-        if !self.progress {
-            return ProgressBar::hidden();
-        }
-        let target = ProgressDrawTarget::stderr_with_hz(10);
-        let bar = ProgressBar::with_draw_target(Some(self.n_steps), target);
-        match ProgressStyle::with_template("{bar:40} {percent:>3} %  {pos}/{len} steps  {eta} left") {
-            Ok(style) => bar.with_style(style),
-            Err(_) => bar,
-        }
     }
 }
 

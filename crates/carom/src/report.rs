@@ -81,8 +81,7 @@ impl StepReport {
 fn count_together(impacts: &mut [Impact]) {
     let mut group_of: Vec<usize> = (0..impacts.len()).collect();
     let mut last_of: BTreeMap<BodyId, usize> = BTreeMap::new();
-    for index in 0..impacts.len() {
-        let impact = &impacts[index];
+    for (index, impact) in impacts.iter().enumerate() {
         for (body, side) in [(impact.a, &impact.side_a), (impact.b, &impact.side_b)] {
             if side.mass.is_infinite() && side.inverse_inertia == DMat3::ZERO {
                 continue;
