@@ -21,6 +21,7 @@
 //! *Symplectic splitting methods for rigid body molecular dynamics* (1997); Blanes and Moan, *Practical symplectic
 //! partitioned Runge–Kutta methods* (2002), method S6 of order 4.
 
+use crate::fault;
 use crate::mass::BodyMass;
 use crate::math::{DMat3, DQuat, DVec3, decay_fraction, rotated_diagonal, rotation_from_vector, sin_cos};
 
@@ -177,7 +178,7 @@ pub(crate) fn fly(state: &RigidState, constants: &Constants, influence: &Influen
     }
     let (position, velocity) = fly_center(state, constants, influence, time);
     let kick = 0.5 * time * influence.torque;
-    let momentum = state.angular_momentum + kick;
+    let momentum = fault::spin(state.angular_momentum) + kick;
     let decay = decay_fraction(constants.angular_damping * time);
     let turning_time = time * decay;
     let rotation = turn(state.rotation, momentum, constants, turning_time);
@@ -200,7 +201,7 @@ pub(crate) fn fly_center(
     let fraction = decay_fraction(decay);
     let second =
         if decay < 1e-4 { 0.5 - decay / 6.0 + decay * decay / 24.0 } else { (1.0 - fraction) / decay };
-    let (v, a) = (state.velocity, influence.acceleration);
+    let (v, a) = (state.velocity, fault::gravity(influence.acceleration));
     let position = state.position + v * (time * fraction) + a * (time * time * second);
     (position, v * (1.0 - decay * fraction) + a * (time * fraction))
 }

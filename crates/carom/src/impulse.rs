@@ -20,6 +20,7 @@
 //! `normal` has unit length and points from `a` to `b`; the impulse on `b` is `+f·n`, on `a` it is `−f·n`. Speeds along
 //! the normal are those of `b` against `a`: negative while the bodies close, positive while they part.
 
+use crate::fault;
 use crate::math::{DMat3, DVec3};
 
 /// One of the two bodies at the instant of the collision. World axes, SI units.
@@ -177,7 +178,7 @@ pub fn resolve(a: &Side, b: &Side, contact: &Contact) -> Resolution {
 
     let mut impulse = Impulse { normal: 0.0, tangent: DVec3::ZERO, sticks: false };
     if closing_speed < 0.0 && per_unit_impulse > 0.0 {
-        impulse.normal = -(1.0 + contact.restitution) * closing_speed / per_unit_impulse;
+        impulse.normal = -(1.0 + fault::restitution(contact.restitution)) * closing_speed / per_unit_impulse;
         if contact.static_friction > 0.0 || contact.dynamic_friction > 0.0 {
             impulse = with_friction(a, b, contact, impulse.normal);
         }
@@ -258,9 +259,10 @@ fn with_friction(a: &Side, b: &Side, contact: &Contact, frictionless: f64) -> Im
     let line = kappa * normal - direction;
     let bend = k * line;
     let mut reach = f64::INFINITY;
-    let cone = 1.0 - contact.dynamic_friction * kappa;
+    let friction = fault::friction(contact.dynamic_friction);
+    let cone = 1.0 - friction * kappa;
     if cone > 0.0 {
-        reach = contact.dynamic_friction * frictionless / cone;
+        reach = friction * frictionless / cone;
     }
     let slowing = -direction.dot(bend);
     if slowing > 0.0 {

@@ -49,6 +49,7 @@ mod solver;
 
 // What it tells.
 mod error;
+mod fault;
 pub mod math;
 pub mod report;
 

@@ -13,7 +13,7 @@
 use crate::bodies::{Bodies, WORLD_ROW};
 use crate::collide::{ContactPoint, Manifold};
 use crate::impacts::reflection::{Blow, Mover, Spot, Start, reflect, velocities_after};
-use crate::impacts::strike::{center_at, mover_at, push, record, velocity_of};
+use crate::impacts::strike::{mover_at, pose_at, push, record, velocity_of};
 use crate::impacts::time_of_impact::{Approach, RestLaw, Touch};
 use crate::impulse::{Contact, Velocity};
 use crate::math::DVec3;
@@ -229,7 +229,7 @@ impl<'a> Instant<'a> {
 
     fn centers(&self, index: usize) -> Option<[DVec3; 2]> {
         let (a, b) = self.pairs[index].colliders;
-        let center = |key| Some(center_at(self.bodies, self.bodies.collider(key)?, self.time));
+        let center = |key| Some(pose_at(self.bodies, self.bodies.collider(key)?, self.time).position);
         Some([center(a)?, center(b)?])
     }
 

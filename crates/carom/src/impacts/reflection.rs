@@ -247,8 +247,9 @@ impl<'a> Round<'a> {
     fn rub(&mut self) {
         let (smooth, before) = (self.blows.clone(), self.velocities.clone());
         for _ in 0..FRICTION_SWEEPS {
+            // Friction last, so that wherever the sweeps end it keeps to the cone of the push that it belongs to.
             let change = (0..self.spots.len())
-                .map(|index| self.rub_one(index).max(self.push_along_normal(index)))
+                .map(|index| self.push_along_normal(index).max(self.rub_one(index)))
                 .fold(0.0, f64::max);
             if change <= (FRICTION_AGREEMENT * self.fastest).max(self.negligible) {
                 break;

@@ -2,9 +2,10 @@
 
 use crate::bodies::{Bodies, ColliderRow, WORLD_ROW};
 use crate::collide::ContactPoint;
+use crate::fault;
 use crate::impacts::reflection::{Blow, Mover, Spot};
 use crate::impulse::Velocity;
-use crate::math::{DMat3, DVec3};
+use crate::math::{DMat3, DVec3, Pose};
 use crate::report::Impact;
 use crate::step::motion::state_at;
 
@@ -20,13 +21,13 @@ pub(crate) fn mover_at(bodies: &Bodies, row: usize, time: f64) -> Mover {
     Mover { mass: 1.0 / constants.inverse_mass, inertia, inverse_inertia, velocity }
 }
 
-/// Its centre of mass at that time; that of the collider's body where the row is the world's.
-pub(crate) fn center_at(bodies: &Bodies, collider: &ColliderRow, time: f64) -> DVec3 {
+/// Its centre of mass and orientation at that time; those of the collider's body where the row is the world's.
+pub(crate) fn pose_at(bodies: &Bodies, collider: &ColliderRow, time: f64) -> Pose {
     if collider.row == WORLD_ROW {
-        bodies.center_pose(collider).position
-    } else {
-        state_at(bodies, collider.row, time).position
+        return bodies.center_pose(collider);
     }
+    let state = state_at(bodies, collider.row, time);
+    Pose::new(state.position, state.rotation)
 }
 
 /// The velocity of a row as it is stored.
@@ -38,8 +39,9 @@ pub(crate) fn velocity_of(bodies: &Bodies, row: usize) -> Velocity {
 /// Gives the body of `row` an impulse (N·s) at `arm` from its centre of mass.
 pub(crate) fn push(bodies: &mut Bodies, row: usize, arm: DVec3, impulse: DVec3) {
     if row != WORLD_ROW && bodies.constants[row].is_movable() {
+        let impulse = fault::lost_impulse(row, fault::normal(impulse));
         bodies.states[row].velocity += impulse * bodies.constants[row].inverse_mass;
-        bodies.states[row].angular_momentum += arm.cross(impulse);
+        bodies.states[row].angular_momentum += fault::lever_arm(arm).cross(impulse);
     }
 }
 
@@ -66,8 +68,8 @@ pub(crate) fn record(
         contact: spot.contact,
         side_a,
         side_b,
-        pose_a: bodies.center_pose(a),
-        pose_b: bodies.center_pose(b),
+        pose_a: pose_at(bodies, a, time),
+        pose_b: pose_at(bodies, b, time),
         after_a: side_a.velocity,
         after_b: side_b.velocity,
         fraction: blow.normal,

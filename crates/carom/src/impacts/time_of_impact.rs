@@ -6,6 +6,7 @@
 
 use crate::bodies::{Bodies, ColliderRow, WORLD_ROW};
 use crate::collide::{self, ContactPoint, Manifold};
+use crate::fault;
 use crate::flight::fly_center;
 use crate::impulse::Velocity;
 use crate::math::{DVec3, Pose};
@@ -275,6 +276,9 @@ impl<'a> Approach<'a> {
     /// The first instant from `from` until `until` at which the two touch and close; for a pair that `rests`, close
     /// faster than the rest threshold.
     pub fn next_touch(&self, from: f64, until: f64, rests: bool) -> Option<f64> {
+        if fault::lost_collision((self.a.slot, self.b.slot)) {
+            return None;
+        }
         let limit = self.speed_limit(from, until);
         let least = BITE * self.thinner() / limit;
         let mut now = (from, self.separation(from));
@@ -325,19 +329,19 @@ impl<'a> Approach<'a> {
     fn root(&self, apart: (f64, f64), over: (f64, f64)) -> f64 {
         let ((mut low, mut high_value), (mut high, mut low_value)) = ((apart.0, over.1), (over.0, apart.1));
         for iteration in 0..80 {
-            if low_value <= 0.01 * self.tolerance || high - low <= f64::EPSILON * high {
+            if high - low <= f64::EPSILON * high {
                 break;
             }
             let fraction = if iteration % 4 == 3 { 0.5 } else { low_value / (low_value - high_value) };
             let middle = low + fraction.clamp(0.0, 1.0) * (high - low);
             let value = self.separation(middle);
+            if value.abs() <= 0.01 * self.tolerance {
+                return middle;
+            }
             if value > 0.0 {
                 (low, low_value) = (middle, value);
                 high_value *= 0.5;
             } else {
-                if value >= -0.01 * self.tolerance {
-                    return middle;
-                }
                 (high, high_value) = (middle, value);
                 low_value *= 0.5;
             }
