@@ -1,10 +1,13 @@
 //! What a step has to tell.
 
+mod rounds;
+
+pub use rounds::{instants, round_of, rounds};
+
 use crate::bodies::BodyId;
 use crate::conditions::{Hit, STORED};
 use crate::impulse::{Contact, Resolution, Side, Velocity, resolve};
-use crate::math::{DMat3, DVec3, Pose};
-use std::collections::{BTreeMap, BTreeSet};
+use crate::math::{DVec3, Pose};
 
 /// Where on a shape a contact lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -65,61 +68,13 @@ impl StepReport {
     /// Takes the impacts of a step that began at `start`, with rounds that ascend in the order in which they were carried out:
     /// counts rounds and contacts for each instant, puts impacts in order and dates them.
     pub(crate) fn record(&mut self, mut impacts: Vec<Impact>, start: f64) {
-        for instant in impacts.chunk_by_mut(|one, other| one.time == other.time) {
-            count_together(instant);
-        }
+        rounds::number(&mut impacts);
         impacts.sort_by(|x, y| x.time.total_cmp(&y.time).then((x.a, x.b, x.round).cmp(&(y.a, y.b, y.round))));
         for impact in &mut impacts {
             impact.time += start;
         }
         self.impacts = impacts;
     }
-}
-
-/// Among impacts of one time, those that hang together through bodies that impulses move are one instant: numbers its
-/// rounds from 0 and counts its contacts.
-fn count_together(impacts: &mut [Impact]) {
-    let mut group_of: Vec<usize> = (0..impacts.len()).collect();
-    let mut last_of: BTreeMap<BodyId, usize> = BTreeMap::new();
-    for (index, impact) in impacts.iter().enumerate() {
-        for (body, side) in [(impact.a, &impact.side_a), (impact.b, &impact.side_b)] {
-            if side.mass.is_infinite() && side.inverse_inertia == DMat3::ZERO {
-                continue;
-            }
-            if let Some(before) = last_of.insert(body, index) {
-                let (one, other) = (leader(&mut group_of, before), leader(&mut group_of, index));
-                group_of[one.max(other)] = one.min(other);
-            }
-        }
-    }
-    let mut groups: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-    for index in 0..impacts.len() {
-        groups.entry(leader(&mut group_of, index)).or_default().push(index);
-    }
-    for group in groups.into_values() {
-        let mut rounds: Vec<u32> = group.iter().map(|&index| impacts[index].round).collect();
-        rounds.sort_unstable();
-        rounds.dedup();
-        let place = |&index: &usize| {
-            let impact = &impacts[index];
-            let point = impact.point.to_array().map(f64::to_bits);
-            (impact.a, impact.collider_a, impact.b, impact.collider_b, point)
-        };
-        let together = group.iter().map(place).collect::<BTreeSet<_>>().len() as u32;
-        for index in group {
-            let impact = &mut impacts[index];
-            impact.round = rounds.partition_point(|&round| round < impact.round) as u32;
-            impact.together = together;
-        }
-    }
-}
-
-fn leader(group_of: &mut [usize], mut index: usize) -> usize {
-    while group_of[index] != index {
-        group_of[index] = group_of[group_of[index]];
-        index = group_of[index];
-    }
-    index
 }
 
 /// A collision that was resolved: a first touch of two bodies that closed faster than the rest threshold.
