@@ -8,8 +8,9 @@ use crate::nearest::nearest;
 use crate::output::Lines;
 use crate::simulate::{Moment, Outcome, Simulation, name_of};
 use crate::text::{counted, number};
-use carom::conditions::conditions;
-use carom::report::Impact;
+use carom::conditions::{Conditions, Round};
+use carom::math::DVec3;
+use carom::report::{Impact, instants, round_of};
 use carom::{BodyId, World};
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
@@ -25,10 +26,46 @@ enum Wanted {
     Between(BodyId, BodyId),
 }
 
+/// A collision, with all that was struck at the same instant.
+#[derive(Clone)]
+pub struct Collision {
+    /// Its number.
+    pub index: u64,
+    /// The record of it.
+    pub impact: Impact,
+    /// What was resolved at once with it, itself included, and its place there.
+    pub round: Round,
+    pub strike: usize,
+    /// The others of the instant, in all rounds, each with its number.
+    pub others: Vec<(u64, Impact)>,
+}
+
+impl Collision {
+    /// The collision at `place` among those of a step.
+    pub fn of(moment: &Moment<'_>, place: usize) -> Self {
+        let (round, strike) = round_of(moment.impacts, place);
+        let number = |place: usize| moment.impacts_before + place as u64;
+        let instant = instants(moment.impacts).into_iter().find(|instant| instant.contains(&place));
+        let others = instant.unwrap_or_default().into_iter().filter(|&other| other != place);
+        let others = others.map(|other| (number(other), moment.impacts[other].clone())).collect();
+        Self { index: number(place), impact: moment.impacts[place].clone(), round, strike, others }
+    }
+
+    /// How the laws held, angular momentum about a point or else about that of the collision.
+    pub fn conditions(&self, about: Option<DVec3>) -> Conditions {
+        self.round.conditions(self.strike, about.unwrap_or(self.impact.point))
+    }
+
+    /// Whether it was resolved together with others.
+    pub fn is_among_others(&self) -> bool {
+        self.round.strikes.len() > 1
+    }
+}
+
 /// The collisions that were passed on the way to the one that is asked for.
 struct Search {
     wanted: Wanted,
-    found: Option<(u64, Impact)>,
+    found: Option<Collision>,
     passed: BTreeMap<(BodyId, BodyId), u64>,
 }
 
@@ -40,16 +77,16 @@ pub fn explain(arguments: &ExplainArguments) -> Result<ExitCode, Failure> {
     }
     let mut search = Search::new(wanted(arguments, &simulation)?);
     let outcome = simulation.run(|moment| Ok(search.look(moment)))?;
-    let Some((index, impact)) = &search.found else {
+    let Some(collision) = &search.found else {
         return Err(Failure::Input(search.in_vain(&simulation, &outcome)));
     };
 
-    let laws = conditions(&impact.hit(), arguments.about.unwrap_or(impact.point));
+    let laws = collision.conditions(arguments.about);
     let mut lines = Lines::stdout();
     if arguments.json {
-        lines.json(&Explanation::new(*index, &simulation.world, impact, &laws))?;
+        lines.json(&Explanation::new(&simulation.world, collision, &laws))?;
     } else {
-        lines.text(&explanation(*index, &simulation.world, impact, &laws))?;
+        lines.text(&explanation(&simulation.world, collision, &laws))?;
     }
     lines.finish()?;
     Ok(ExitCode::SUCCESS)
@@ -84,14 +121,15 @@ impl Search {
     }
 
     fn look(&mut self, moment: &Moment<'_>) -> ControlFlow<()> {
-        for (index, impact) in (moment.impacts_before..).zip(moment.impacts) {
+        for (place, impact) in moment.impacts.iter().enumerate() {
+            let index = moment.impacts_before + place as u64;
             let (a, b) = (impact.a, impact.b);
             let is_wanted = match self.wanted {
                 Wanted::Index(wanted) => wanted == index,
                 Wanted::Between(first, second) => (a, b) == (first, second) || (b, a) == (first, second),
             };
             if is_wanted {
-                self.found = Some((index, impact.clone()));
+                self.found = Some(Collision::of(moment, place));
                 return ControlFlow::Break(());
             }
             *self.passed.entry((a, b)).or_default() += 1;

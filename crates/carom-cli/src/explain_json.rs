@@ -4,9 +4,9 @@ use carom::World;
 use carom::conditions::{Condition, Conditions};
 use carom::impulse::{UnitResponse, Velocity};
 use carom::math::{DMat3, DVec3};
-use carom::report::Impact;
 use serde::Serialize;
 
+use crate::explain::Collision;
 use crate::simulate::name_of;
 
 type Vector = [f64; 3];
@@ -41,6 +41,8 @@ struct FrictionImpulse {
 struct Together {
     contacts: u32,
     round: u32,
+    /// The numbers of the other collisions of the instant, in all rounds.
+    others: Vec<u64>,
 }
 
 #[derive(Serialize)]
@@ -92,14 +94,15 @@ pub struct Explanation {
 }
 
 impl Explanation {
-    /// Collision `index` of `world`, and how the laws held.
-    pub fn new(index: u64, world: &World, impact: &Impact, conditions: &Conditions) -> Self {
+    /// A collision in `world`, and how the laws held.
+    pub fn new(world: &World, collision: &Collision, conditions: &Conditions) -> Self {
+        let impact = &collision.impact;
         let (a, b) = (&impact.side_a, &impact.side_b);
         let resolution = impact.resolve();
         let contact = &impact.contact;
         let finite = |mass: f64| mass.is_finite().then_some(mass);
         Self {
-            index,
+            index: collision.index,
             time: impact.time,
             a: name_of(world, impact.a).to_owned(),
             b: name_of(world, impact.b).to_owned(),
@@ -120,7 +123,11 @@ impl Explanation {
                 sticks: impact.sticks,
             },
             separating_speed: conditions.separating_speed.after,
-            together: Together { contacts: impact.together, round: impact.round },
+            together: Together {
+                contacts: impact.together,
+                round: impact.round,
+                others: collision.others.iter().map(|(index, _)| *index).collect(),
+            },
             conditions: ConditionsJson {
                 separating_speed: scalar(&conditions.separating_speed),
                 linear_momentum: vector(&conditions.linear_momentum, conditions.linear_to_world),

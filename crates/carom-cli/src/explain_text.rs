@@ -1,30 +1,34 @@
 //! A collision for a reader who has the lecture beside it.
 
+use crate::explain::Collision;
+use crate::explain_table::{LETTERS, headline, scalar_condition, vector_condition, velocities};
 use crate::simulate::name_of;
-use crate::text::{COLUMN, number, point, rough, scalar_row, vector_row};
+use crate::text::{COLUMN, counted, number, point, scalar_row, vector_row};
 use carom::World;
-use carom::conditions::{Condition, Conditions};
+use carom::conditions::{Conditions, Strike};
 use carom::impulse::{Resolution, Side, Velocity};
-use carom::math::DVec3;
 use carom::report::{Feature, Impact};
 use std::fmt::Write;
 
 /// Everything that the sections below tell about.
 struct Story<'a> {
     names: [&'a str; 2],
+    world: &'a World,
+    collision: &'a Collision,
     impact: &'a Impact,
     resolution: Resolution,
     conditions: &'a Conditions,
 }
 
-/// The letters that stand for the two bodies.
-const LETTERS: [&str; 2] = ["a", "b"];
+/// How many other collisions of the instant are named.
+const LISTED: usize = 8;
 
-/// The whole story of collision `index` of `world`.
-pub fn explanation(index: u64, world: &World, impact: &Impact, conditions: &Conditions) -> String {
+/// The whole story of a collision in `world`.
+pub fn explanation(world: &World, collision: &Collision, conditions: &Conditions) -> String {
+    let impact = &collision.impact;
     let names = [name_of(world, impact.a), name_of(world, impact.b)];
-    let story = Story { names, impact, resolution: impact.resolve(), conditions };
-    let mut text = story.heading(index);
+    let story = Story { names, world, collision, impact, resolution: impact.resolve(), conditions };
+    let mut text = story.heading();
     for section in [
         story.inputs(),
         story.steps_one_to_three(),
@@ -55,10 +59,11 @@ impl Story<'_> {
         change.dot(self.impact.contact.normal)
     }
 
-    fn heading(&self, index: u64) -> String {
+    fn heading(&self) -> String {
         let impact = self.impact;
         let title = format!(
-            "COLLISION {index}: {} (a) and {} (b) at t = {} s",
+            "COLLISION {}: {} (a) and {} (b) at t = {} s",
+            self.collision.index,
             self.names[0],
             self.names[1],
             number(impact.time)
@@ -67,13 +72,40 @@ impl Story<'_> {
         let (a, b) = (feature(impact.feature_a), feature(impact.feature_b));
         let _ = writeln!(text, "{a} of a meets {b} of b at {} m", point(impact.point));
         let _ = writeln!(text, "normal n = {}, from a to b", point(impact.contact.normal));
-        if impact.together > 1 {
+        text += &self.partners();
+        text
+    }
+
+    /// What else was struck at this instant.
+    fn partners(&self) -> String {
+        let impact = self.impact;
+        if self.collision.others.is_empty() {
+            return String::new();
+        }
+        let mut text = format!(
+            "\nAT THE SAME INSTANT: {}, this one in round {}\n",
+            counted(u64::from(impact.together), "contact"),
+            impact.round
+        );
+        for (index, other) in self.collision.others.iter().take(LISTED) {
+            let names = [other.a, other.b].map(|id| shortened(name_of(self.world, id), 20));
             let _ = writeln!(
                 text,
-                "one of {} contacts struck at this instant, resolved in round {}: the formula below is\n\
-                 that of this contact alone; the laws hold for all of them together",
-                impact.together, impact.round
+                "  round {}: collision {index}, {} and {}, f = {} N·s",
+                other.round,
+                names[0],
+                names[1],
+                number(other.fraction)
             );
+        }
+        if self.collision.others.len() > LISTED {
+            let _ = writeln!(text, "  and {} more", self.collision.others.len() - LISTED);
+        }
+        if self.collision.is_among_others() {
+            text += "  Contacts of one round are resolved together. The formula below is that of this\n  \
+                     contact alone; then follows what all of them together made of it.\n";
+        } else {
+            text += "  In its round it was alone, so that the formula is all there is to it.\n";
         }
         text
     }
@@ -151,12 +183,21 @@ impl Story<'_> {
             number(per_impulse),
             number(fraction)
         );
+        if self.collision.is_among_others() {
+            let _ = writeln!(
+                text,
+                "TOGETHER  Each contact parts with v_s ≥ −C_r·v_c; f is less where others push\n          \
+                 too, more where they push against it\n  f = {} N·s here, out of {} contacts in this round",
+                number(self.impact.fraction),
+                self.collision.round.strikes.len()
+            );
+        }
         text
     }
 
     fn friction(&self) -> String {
         let contact = &self.impact.contact;
-        let Resolution { friction_impulse, fraction, sticks, .. } = self.resolution;
+        let Impact { friction_impulse, fraction, sticks, .. } = *self.impact;
         if contact.static_friction == 0.0 && contact.dynamic_friction == 0.0 {
             return "FRICTION  none: both coefficients are 0\n".to_owned();
         }
@@ -202,8 +243,17 @@ impl Story<'_> {
         text += &vector_condition("momentum   N·s", &conditions.linear_momentum);
         text += &vector_condition("ang.mom. N·m·s", &conditions.angular_momentum);
         text += &scalar_condition("energy       J", &conditions.energy);
-        let contact = &self.impact.contact;
-        if contact.static_friction > 0.0 || contact.dynamic_friction > 0.0 {
+        if self.collision.is_among_others() {
+            let bodies = self.collision.round.partners.len();
+            let _ = writeln!(
+                text,
+                "  The speed that is expected is the least. Momentum and energy are those of\n  \
+                 all {bodies} bodies of the round."
+            );
+        }
+        let is_rough =
+            |strike: &Strike| strike.contact.static_friction > 0.0 || strike.contact.dynamic_friction > 0.0;
+        if self.collision.round.strikes.iter().any(is_rough) {
             text += "  With friction the energy that is expected is an upper bound.\n";
         }
         let _ = writeln!(text, "  Angular momentum is about {} m.", point(conditions.reference_point));
@@ -212,17 +262,26 @@ impl Story<'_> {
     }
 
     fn went_to_the_world(&self) -> String {
-        let immovable: Vec<&str> = self
-            .sides()
-            .into_iter()
-            .zip(self.names)
+        let own = self.sides().into_iter().zip(self.names);
+        let mut immovable: Vec<&str> = own
             .filter(|(side, _)| side.mass.is_infinite() || has_infinite_inertia(side))
             .map(|(_, name)| name)
             .collect();
+        let round = self.collision.others.iter().map(|(_, other)| other);
+        for other in round.filter(|other| other.round == self.impact.round) {
+            for (side, id) in [(&other.side_a, other.a), (&other.side_b, other.b)] {
+                if side.mass.is_infinite() || has_infinite_inertia(side) {
+                    immovable.push(name_of(self.world, id));
+                }
+            }
+        }
+        immovable.sort_unstable();
+        immovable.dedup();
         if immovable.is_empty() {
             return String::new();
         }
-        let mut text = format!("  What {} took, since nothing moves it:\n", immovable.join(" and "));
+        let mut text =
+            format!("  What {} took, since nothing moves it:\n", shortened(&immovable.join(" and "), 44));
         text += &vector_row("momentum", "", self.conditions.linear_to_world, "N·s");
         text += &vector_row("angular momentum", "", self.conditions.angular_to_world, "N·m·s");
         text
@@ -258,60 +317,12 @@ impl Story<'_> {
         }
         let restitution = self.impact.contact.restitution;
         let (closing, per_impulse) = (self.resolution.closing_speed, self.speed_per_impulse());
-        if per_impulse > 0.0 {
+        if per_impulse > 0.0 && !self.collision.is_among_others() {
             let loss = 0.5 * (1.0 - restitution * restitution) * closing * closing / per_impulse;
             let _ = writeln!(text, "  C_r takes ½·(1 − C_r²)·v_c² / ((Δv_b − Δv_a)·n) = {} J", number(loss));
         }
         text
     }
-}
-
-/// A section's first line, over columns of vectors if asked for.
-fn headline(title: &str, vectors: bool) -> String {
-    if !vectors {
-        return format!("{title}\n");
-    }
-    format!("{title:<28}{:>COLUMN$}{:>COLUMN$}{:>COLUMN$}\n", "x", "y", "z")
-}
-
-fn velocities(when: &str, of: [&Velocity; 2]) -> String {
-    let mut text = String::new();
-    for (velocity, letter) in of.into_iter().zip(LETTERS) {
-        text += &vector_row(&format!("velocity {when}"), &format!("v_l,{letter}"), velocity.linear, "m/s");
-        text += &vector_row(&format!("spin {when}"), &format!("v_r,{letter}"), velocity.angular, "rad/s");
-    }
-    text
-}
-
-fn scalar_condition(law: &str, condition: &Condition<f64>) -> String {
-    let values = [condition.before, condition.after, condition.expected].map(number);
-    condition_row(&format!("{} {law}", mark(condition.holds)), &values)
-        + &judged(condition.error, condition.tolerance)
-}
-
-fn vector_condition(law: &str, condition: &Condition<DVec3>) -> String {
-    let row = |label: &str, axis: usize| {
-        let values = [condition.before, condition.after, condition.expected].map(|value| number(value[axis]));
-        condition_row(label, &values)
-    };
-    row(&format!("{} {law}", mark(condition.holds)), 0)
-        + &judged(condition.error, condition.tolerance)
-        + &row("", 1)
-        + "\n"
-        + &row("", 2)
-        + "\n"
-}
-
-fn condition_row(label: &str, [before, after, expected]: &[String; 3]) -> String {
-    format!("{label:<17}{before:>COLUMN$}{after:>COLUMN$}{expected:>COLUMN$}")
-}
-
-fn judged(error: f64, tolerance: f64) -> String {
-    format!("{:>10}{:>12}\n", rough(error), rough(tolerance))
-}
-
-fn mark(holds: bool) -> char {
-    if holds { '✓' } else { '✗' }
 }
 
 fn feature(feature: Feature) -> String {

@@ -17,6 +17,7 @@ mod audit;
 mod check;
 mod explain;
 mod explain_json;
+mod explain_table;
 mod explain_text;
 mod failure;
 mod interrupt;

@@ -1,13 +1,13 @@
 //! `carom run`, and `carom` alone.
 
 use crate::arguments::{Arguments, Command, RunArguments, parse};
+use crate::explain::Collision;
 use crate::explain_text::explanation;
 use crate::failure::Failure;
 use crate::output::{Lines, note};
 use crate::simulate::Simulation;
 use crate::summary::{Summary, Watcher};
 use crate::trace::Trace;
-use carom::conditions::conditions;
 use std::ops::ControlFlow;
 use std::process::ExitCode;
 
@@ -77,16 +77,15 @@ pub fn show() -> Result<ExitCode, Failure> {
     let mut first = None;
     let outcome = simulation.run(|moment| {
         watcher.look(moment);
-        if first.is_none() {
-            first = moment.impacts.first().cloned();
+        if first.is_none() && !moment.impacts.is_empty() {
+            first = Some(Collision::of(moment, 0));
         }
         Ok(ControlFlow::Continue(()))
     })?;
 
     let mut lines = Lines::stdout();
-    if let Some(impact) = &first {
-        let laws = conditions(&impact.hit(), impact.point);
-        lines.text(&explanation(0, &simulation.world, impact, &laws))?;
+    if let Some(collision) = &first {
+        lines.text(&explanation(&simulation.world, collision, &collision.conditions(None)))?;
         lines.text("\n")?;
     }
     lines.text(&Summary::new(&simulation, &outcome, watcher).text())?;
