@@ -1,11 +1,11 @@
-//! `carom check`: every collision against the laws.
+//! `carom check`: every collision and every step against the laws.
 
 use crate::arguments::RunArguments;
-use crate::audit::{Finding, Law, audit};
+use crate::audit::{Auditor, Finding, Law, Place};
 use crate::failure::Failure;
 use crate::output::{Lines, note};
 use crate::run::prepare;
-use crate::simulate::{Moment, Simulation, name_of};
+use crate::simulate::{Moment, Outcome, Simulation, name_of};
 use crate::text::{counted, number, rough};
 use crate::trace::Trace;
 use serde::Serialize;
@@ -16,23 +16,31 @@ use std::process::ExitCode;
 /// How many violations are kept to be listed; all are counted.
 const LISTED: usize = 1000;
 
-/// A law, and one collision.
+/// How many bodies a finding names.
+const NAMED: usize = 6;
+
+/// A law, and one collision, or one body or more in a step.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 struct Judged {
     law: &'static str,
-    collision: u64,
-    a: String,
-    b: String,
+    step: u64,
+    /// None where the law is about a step.
+    collision: Option<u64>,
+    /// The first of them, where there are many.
+    bodies: Vec<String>,
+    /// How many there are besides.
+    more_bodies: usize,
     time: f64,
     error: f64,
     tolerance: f64,
     unit: &'static str,
 }
 
-/// A law, and all collisions.
+/// A law, and all that it was held against.
 #[derive(Serialize)]
 struct Tally {
     law: &'static str,
+    says: &'static str,
     checked: u64,
     violations: u64,
     /// The one with the largest error for its tolerance.
@@ -51,19 +59,32 @@ struct Verdict {
     violations: Vec<Judged>,
     #[serde(skip)]
     without_normal: u64,
+    /// How far the simulation has come.
+    #[serde(skip)]
+    reached: Outcome,
 }
 
-/// Simulates a scene and holds its collisions to the laws.
+/// Simulates a scene and holds its collisions and steps to the laws.
 pub fn check(arguments: &RunArguments) -> Result<ExitCode, Failure> {
     let (mut simulation, mut trace) = prepare(arguments)?;
     let mut verdict = Verdict::new(&simulation);
+    let mut auditor = Auditor::new(&simulation.world);
     let outcome = simulation.run(|moment| {
-        verdict.look(moment);
+        verdict.look(&mut auditor, moment);
         if let Some(trace) = &mut trace {
             trace.step(moment)?;
         }
         Ok(ControlFlow::Continue(()))
-    })?;
+    });
+    let outcome = match outcome {
+        Ok(outcome) => outcome,
+        // What broke a law before it broke the simulation is what the user wants to know.
+        Err(Failure::NonFinite(message)) if verdict.n_violations() > 0 => {
+            note(&message);
+            verdict.reached
+        }
+        Err(failure) => return Err(failure),
+    };
     trace.map_or(Ok(()), Trace::end)?;
 
     verdict.collisions = outcome.collisions;
@@ -85,6 +106,7 @@ impl Verdict {
     fn new(simulation: &Simulation) -> Self {
         let tally = |law: Law| Tally {
             law: law.key(),
+            says: law.says(),
             checked: 0,
             violations: 0,
             worst: None,
@@ -97,12 +119,15 @@ impl Verdict {
             laws: Law::ALL.into_iter().map(tally).collect(),
             violations: Vec::new(),
             without_normal: 0,
+            reached: Outcome::default(),
         }
     }
 
-    fn look(&mut self, moment: &Moment<'_>) {
-        let audit = audit(moment.world, moment.impacts);
+    fn look(&mut self, auditor: &mut Auditor, moment: &Moment<'_>) {
+        let audit = auditor.step(moment.world, moment.impacts);
         self.without_normal += audit.without_normal;
+        self.reached.steps = moment.step;
+        self.reached.collisions = moment.impacts_before + moment.impacts.len() as u64;
         for finding in &audit.findings {
             self.enter(finding, moment);
         }
@@ -154,10 +179,18 @@ impl Verdict {
             let _ = writeln!(text, "{mark} {law:<18}{:>8}{:>10}   {worst}", tally.checked, tally.violations);
         }
         text.push_str(
-            "\nTolerances allow for geometry that is worked out anew, exact to ε = 4·2⁻²³, and for nothing else.\n",
+            "\nTolerances allow for geometry that is worked out anew and states that are told in single precision, ε = 4·2⁻²³;\n\
+             and for what a substep h can not tell, where contacts hold bodies.\n",
         );
         for tally in &self.laws {
-            let _ = writeln!(text, "  {:<18}{}", tally.law.replace('_', " "), tally.tolerance_rule);
+            let _ = writeln!(
+                text,
+                "  {:<18}{}\n{:20}{}",
+                tally.law.replace('_', " "),
+                tally.says,
+                "",
+                tally.tolerance_rule
+            );
         }
         text.push('\n');
         match self.n_violations() {
@@ -179,12 +212,17 @@ impl Verdict {
 
 impl Judged {
     fn text(&self) -> String {
+        let mut bodies = self.bodies.join(" and ");
+        if self.more_bodies > 0 {
+            let _ = write!(bodies, " and {} more", self.more_bodies);
+        }
+        let place = match self.collision {
+            Some(collision) => format!("of collision {collision} ({bodies})"),
+            None => format!("of {bodies} in step {}", self.step),
+        };
         format!(
-            "{} of collision {} ({} and {}) at t = {} s: off by {} {}, tolerance {}",
+            "{} {place} at t = {} s: off by {} {}, tolerance {}",
             self.law.replace('_', " "),
-            self.collision,
-            self.a,
-            self.b,
             number(self.time),
             rough(self.error),
             self.unit,
@@ -194,13 +232,20 @@ impl Judged {
 }
 
 fn judged(finding: &Finding, moment: &Moment<'_>) -> Judged {
-    let impact = &moment.impacts[finding.impact];
+    let (collision, bodies, time) = match &finding.place {
+        Place::Collision(index) => {
+            let impact = &moment.impacts[*index];
+            (Some(moment.impacts_before + *index as u64), vec![impact.a, impact.b], impact.time)
+        }
+        Place::Bodies(bodies, time) => (None, bodies.clone(), *time),
+    };
     Judged {
         law: finding.law.key(),
-        collision: moment.impacts_before + finding.impact as u64,
-        a: name_of(moment.world, impact.a).to_owned(),
-        b: name_of(moment.world, impact.b).to_owned(),
-        time: impact.time,
+        step: moment.step,
+        collision,
+        bodies: bodies.iter().take(NAMED).map(|&id| name_of(moment.world, id).to_owned()).collect(),
+        more_bodies: bodies.len().saturating_sub(NAMED),
+        time,
         error: finding.error,
         tolerance: finding.tolerance,
         unit: finding.law.unit(),

@@ -8,7 +8,9 @@ use std::io;
 pub enum Failure {
     /// The input or the arguments are no good. Nothing was written.
     Input(String),
-    /// Anything else: an output that can't be written, a body gone non-finite.
+    /// A body has gone non-finite.
+    NonFinite(String),
+    /// Anything else: an output that can't be written.
     Other(String),
     /// Whoever read the output has gone. That is their right and no error.
     ClosedPipe,
@@ -30,7 +32,7 @@ impl Failure {
         match self {
             Failure::ClosedPipe => 0,
             Failure::Input(_) => 2,
-            Failure::Other(_) | Failure::Interrupted(_) => 3,
+            Failure::NonFinite(_) | Failure::Other(_) | Failure::Interrupted(_) => 3,
         }
     }
 }
@@ -39,7 +41,7 @@ impl Failure {
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Failure::Input(message) | Failure::Other(message) => {
+            Failure::Input(message) | Failure::NonFinite(message) | Failure::Other(message) => {
                 write!(f, "carom: {}", one_line(message))
             }
             Failure::ClosedPipe => Ok(()),

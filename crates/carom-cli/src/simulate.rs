@@ -142,7 +142,7 @@ impl Simulation {
     fn gone_non_finite(&self, lost: &[BodyId], step: u64) -> Failure {
         let names: Vec<String> = lost.iter().map(|&id| format!("`{}`", self.name(id))).collect();
         let time = step as f64 * self.dt;
-        Failure::Other(format!(
+        Failure::NonFinite(format!(
             "{}: {} no longer finite after step {step} (t = {time} s) and out of the simulation",
             self.scene,
             names.join(", ")

@@ -54,7 +54,8 @@ fn every_builtin_scene_keeps_the_laws() {
 }
 
 #[test]
-#[ignore = "of 19,964 collisions 12 separate by up to 8.1e-5 m/s off, with 1.3e-5 m/s allowed, and a normal is off by 1.1e-4 rad, with 1e-4 allowed"]
+#[ignore = "of 16,210 collisions 25 part too slowly (15 of them, in crowds, by 2e-3 to 1.4e-2 m/s) and 46 go on closing by up to 0.8 m/s; \
+            2 touches are missing; contacts push 73 bodies by up to 0.011 N·s out of the cone of friction"]
 fn the_pile_keeps_the_laws() {
     let output = Folder::new("pile").carom(&["check", "pile", "--seconds", "4", "--quiet"]);
     assert_eq!(output.status.code(), Some(0), "{}{}", stdout(&output), stderr(&output));
@@ -161,6 +162,45 @@ fn an_explanation_has_the_promised_keys_and_its_numbers_agree() {
 }
 
 #[test]
+fn what_was_struck_at_once_is_told_with_the_laws_of_all_of_it() {
+    let folder = Folder::new("at_once");
+    let cuboid = |size: &str, more: &str| {
+        format!(r#""colliders": [{{"shape": {{"type": "box", "size": {size}}}, "friction": 0, {more}}}]"#)
+    };
+    let scene = format!(
+        r#"{{"carom": 1, "name": "flat", "bodies": [
+            {{"name": "floor", "motion": "static", {}}},
+            {{"name": "cube", "position": [0, 2.5, 0], "linear_velocity": [0.5, 0, 0], {}}}]}}"#,
+        cuboid("[20, 2, 20]", r#""restitution": 0"#),
+        cuboid("[1, 1, 1]", r#""restitution": 0.6"#)
+    );
+    folder.file("scene.json", scene);
+    for number in 0..4 {
+        let it = json(&folder.told(&["explain", "scene.json", "--collision", &number.to_string(), "--json"]));
+        assert_eq!(it["together"]["contacts"], 4);
+        assert_eq!(it["together"]["round"], 0);
+        let others: Vec<u64> = (0..4).filter(|&other| other != number).collect();
+        assert_eq!(it["together"]["others"], serde_json::json!(others));
+        for law in ["separating_speed", "linear_momentum", "angular_momentum", "energy"] {
+            assert_eq!(it["conditions"][law]["holds"], true, "{law}: {}", it["conditions"]);
+        }
+        let energy = |when: &str| it["conditions"]["energy"][when].as_f64().expect("a number");
+        // 125 J across the fall stay as they are.
+        let ratio = (energy("after") - 125.0) / (energy("before") - 125.0);
+        assert!((ratio - 0.36).abs() < 1e-9, "{ratio}");
+        let alone = -1.6 * it["closing_speed"].as_f64().expect("a number") / 4e-3;
+        assert!(it["fraction"].as_f64().expect("a number") != alone);
+    }
+    let text = folder.told(&["explain", "scene.json"]);
+    for part in
+        ["AT THE SAME INSTANT: 4 contacts", "collision 3, floor and cube", "TOGETHER", "What floor took"]
+    {
+        assert!(text.contains(part), "no {part} in:\n{text}");
+    }
+    assert!(!text.contains('✗') && text.lines().all(|line| line.chars().count() <= 80), "{text}");
+}
+
+#[test]
 fn what_can_not_move_has_no_mass_in_json() {
     let folder = Folder::new("infinite");
     folder.file("scene.json", bouncing());
@@ -209,9 +249,10 @@ fn a_verdict_is_one_json_object() {
     assert_eq!(verdict["collisions"], 1);
     assert_eq!(verdict["violations"], json("[]"));
     for law in verdict["laws"].as_array().expect("a list") {
-        assert!(law["checked"].as_u64() >= Some(1), "{law}");
+        assert!(law["worst"].is_null() == (law["checked"] == 0), "{law}");
         assert!(law["worst"]["error"].as_f64() <= law["worst"]["tolerance"].as_f64(), "{law}");
-        assert!(law["tolerance_rule"].is_string());
+        assert!(law["says"].is_string() && law["tolerance_rule"].is_string());
+        assert_eq!(law["violations"], 0);
     }
 }
 

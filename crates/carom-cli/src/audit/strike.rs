@@ -1,8 +1,7 @@
-//! One contact of a collision, with everything but the motion found again.
+//! One contact of a collision, with everything but the motion and the impulse found again.
 
 use super::Audit;
-use super::impulses::{Basis, Twist};
-use super::law::{Finding, Law, NORMAL_TOLERANCE, ROUNDING};
+use super::law::{Finding, Law, NORMAL_TOLERANCE, Place, ROUNDING};
 use carom::collide::{Manifold, manifolds};
 use carom::impulse::Velocity;
 use carom::math::{DMat3, DQuat, DVec3, Pose, rotated_diagonal};
@@ -17,9 +16,6 @@ pub(super) struct Party {
     /// Zero on axes of infinite inertia.
     pub(super) inertia: DMat3,
     pub(super) inverse_inertia: DMat3,
-    /// Of infinite inertia: which of the principal axes, in the world.
-    pub(super) stiff: [bool; 3],
-    pub(super) axes: DMat3,
     /// Centre of mass.
     pub(super) center: DVec3,
     /// Whether impulses change anything about it.
@@ -32,15 +28,12 @@ impl Party {
         let rotation: DQuat = pose.rotation * mass.principal_rotation;
         let finite = mass.moments.map(|moment| if moment.is_finite() { moment } else { 0.0 });
         let inverse = finite.map(|moment| if moment > 0.0 { 1.0 / moment } else { 0.0 });
-        let stiff = mass.moments.to_array().map(|moment| !moment.is_finite());
         Some(Self {
             mass: mass.mass,
             inertia: rotated_diagonal(rotation, finite),
             inverse_inertia: rotated_diagonal(rotation, inverse),
-            stiff,
-            axes: DMat3::from_quat(rotation),
             center: pose.position,
-            moves: mass.mass.is_finite() || stiff.contains(&false),
+            moves: mass.mass.is_finite() || inverse != DVec3::ZERO,
         })
     }
 
@@ -74,20 +67,6 @@ impl Party {
         let spin = velocity.angular - self.inverse_inertia * (self.inertia * velocity.angular);
         linear + spin.cross(arm)
     }
-
-    /// What holds it, as impulses that may act on it besides its contacts, about `reference`.
-    pub(super) fn held_by(&self, reference: DVec3, basis: &mut Basis) {
-        for (axis, _) in [self.axes.x_axis, self.axes.y_axis, self.axes.z_axis]
-            .into_iter()
-            .zip(self.stiff)
-            .filter(|(_, stiff)| *stiff)
-        {
-            basis.add(Twist { linear: DVec3::ZERO, angular: axis });
-        }
-        if self.mass.is_infinite() {
-            basis.add_impulses_at(self.center - reference);
-        }
-    }
 }
 
 /// One contact of an instant.
@@ -96,13 +75,18 @@ pub(super) struct Strike {
     pub(super) ids: [BodyId; 2],
     pub(super) time: f64,
     pub(super) parties: [Party; 2],
+    pub(super) poses: [Pose; 2],
     pub(super) point: DVec3,
     pub(super) arms: [DVec3; 2],
     pub(super) normal: DVec3,
+    /// Between that and the one that was used, as far as it is no violation by itself, rad.
+    pub(super) normal_error: f64,
     pub(super) surface: Surface,
     pub(super) before: [Velocity; 2],
     pub(super) after: [Velocity; 2],
-    pub(super) together: u32,
+    /// What b got, N·s, as the record says.
+    pub(super) impulse: DVec3,
+    pub(super) sticks: bool,
     pub(super) round: u32,
 }
 
@@ -121,7 +105,10 @@ impl Strike {
             let (party, arm) = (&self.parties[side], self.arms[side]);
             party.speed_scale(&self.before[side], arm) + party.speed_scale(&self.after[side], arm)
         };
-        ROUNDING * (of(0) + of(1))
+        let slip = |velocities: &[Velocity; 2]| {
+            (velocities[1].at(self.arms[1]) - velocities[0].at(self.arms[0])).length()
+        };
+        ROUNDING * (of(0) + of(1)) + self.normal_error * (slip(&self.before) + slip(&self.after))
     }
 
     /// K: how the unit impulse changes the speed along the normal.
@@ -133,14 +120,24 @@ impl Strike {
         of(0) + of(1)
     }
 
-    /// The impulses that this contact can have given, about `reference`.
-    pub(super) fn impulses(&self, reference: DVec3, basis: &mut Basis) {
-        let lever = self.point - reference;
-        if self.frictionless() {
-            basis.add(Twist { linear: self.normal, angular: lever.cross(self.normal) });
-        } else {
-            basis.add_impulses_at(lever);
+    /// What the body of `side` got here, N·s.
+    pub(super) fn impulse_on(&self, side: usize) -> DVec3 {
+        if side == 1 { self.impulse } else { -self.impulse }
+    }
+
+    /// What rounding of its momentum is relative to; infinite for an infinite mass.
+    pub(super) fn momentum_scale(&self, side: usize) -> f64 {
+        let party = &self.parties[side];
+        if party.mass.is_infinite() {
+            return f64::INFINITY;
         }
+        party.linear(&self.before[side]).length() + party.linear(&self.after[side]).length()
+    }
+
+    /// The longer one of its lever arms on bodies that move, m.
+    pub(super) fn longest_arm(&self) -> f64 {
+        let arm = |side: usize| if self.parties[side].moves { self.arms[side].length() } else { 0.0 };
+        arm(0).max(arm(1))
     }
 }
 
@@ -159,14 +156,18 @@ pub(super) fn strike(world: &World, index: usize, impact: &Impact, audit: &mut A
     let arms = [impact.point - impact.pose_a.position, impact.point - impact.pose_b.position];
 
     let size = collider_a.shape.reach(DVec3::ZERO).min(collider_b.shape.reach(DVec3::ZERO));
+    // What rests may strike from as far as contacts reach.
+    let margin = 1e-3 * size + 2.0 * impact.separation.abs();
     let mut found = Vec::new();
-    manifolds((&collider_a.shape, &pose_a), (&collider_b.shape, &pose_b), 1e-3 * size, &mut found);
-    let normal = nearest_normal(&found, impact.contact.normal, 1e-3 * size);
-    match normal {
-        Some(normal) => audit.findings.push(Finding {
+    manifolds((&collider_a.shape, &pose_a), (&collider_b.shape, &pose_b), margin, &mut found);
+    let normal = nearest_normal(&found, impact.contact.normal, margin);
+    let normal_error =
+        normal.map(|own| own.cross(impact.contact.normal).length().atan2(own.dot(impact.contact.normal)));
+    match normal_error {
+        Some(error) => audit.findings.push(Finding {
             law: Law::Normal,
-            impact: index,
-            error: normal.cross(impact.contact.normal).length().atan2(normal.dot(impact.contact.normal)),
+            place: Place::Collision(index),
+            error,
             tolerance: NORMAL_TOLERANCE,
         }),
         None => audit.without_normal += 1,
@@ -177,13 +178,16 @@ pub(super) fn strike(world: &World, index: usize, impact: &Impact, audit: &mut A
         ids: [impact.a, impact.b],
         time: impact.time,
         parties: [Party::new(world, impact.a, &impact.pose_a)?, Party::new(world, impact.b, &impact.pose_b)?],
+        poses: [impact.pose_a, impact.pose_b],
         point: impact.point,
         arms,
         normal: normal.unwrap_or(impact.contact.normal),
+        normal_error: normal_error.map_or(0.0, |error| error.min(NORMAL_TOLERANCE)),
         surface: Surface::between(&collider_a.material, &collider_b.material),
         before: [impact.side_a.velocity, impact.side_b.velocity],
         after: [impact.after_a, impact.after_b],
-        together: impact.together,
+        impulse: impact.impulse(),
+        sticks: impact.sticks,
         round: impact.round,
     })
 }
