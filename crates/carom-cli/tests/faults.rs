@@ -24,9 +24,10 @@ fn program() -> PathBuf {
 }
 
 /// A scene, a fault, and the laws that it breaks there, among others.
-const FAULTS: [(&str, &str, &[&str]); 10] = [
+const FAULTS: [(&str, &str, &[&str]); 11] = [
     ("off-centre-hit", "restitution", &["separating_speed", "energy"]),
     ("box-on-its-corner", "restitution", &["separating_speed"]),
+    ("flat.json", "restitution", &["separating_speed"]),
     ("box-on-its-corner", "friction", &["push"]),
     ("off-centre-hit", "lever_arm", &["angular_momentum", "own_momentum"]),
     ("bat-and-ball", "lever_arm", &["angular_momentum", "own_momentum"]),
@@ -56,6 +57,11 @@ fn each_planted_fault_is_found_and_none_where_there_is_none() {
     let program = program();
     let folder = Folder::new("planted");
     folder.file("bouncing.json", bouncing());
+    // Four corners at once.
+    let corners = r#"{"type": "box", "size": [1, 1, 1]}, "friction": 0"#;
+    let ball = r#"{"type": "sphere", "radius": 0.5}"#;
+    assert!(bouncing().contains(ball));
+    folder.file("flat.json", bouncing().replace(ball, corners).replace("[0, 0, 3]", "[0, 0, 0]"));
     for (scene, fault, laws) in FAULTS {
         let (output, verdict) = checked(&program, &folder, scene, "none");
         assert_eq!(output.status.code(), Some(0), "{scene} without a fault: {}", verdict["violations"]);

@@ -19,6 +19,7 @@
 //! lets a pair break away, keeps symmetry, energy, momentum, and only pushes. The weighting for different C_r and the
 //! scaling are ours.
 
+use crate::fault;
 use crate::impulse::{Contact, Resolution, Side, Velocity, resolve};
 use crate::math::{DMat3, DVec3, any_tangent};
 
@@ -92,7 +93,7 @@ impl Spot {
 
     /// What the contact's own rule asks for: the least speed along the normal afterwards.
     fn wanted(&self, before: f64) -> f64 {
-        if self.pulls { 0.0 } else { self.contact.restitution * (-before).max(0.0) }
+        if self.pulls { 0.0 } else { fault::restitution(self.contact.restitution) * (-before).max(0.0) }
     }
 }
 
@@ -230,7 +231,7 @@ impl<'a> Round<'a> {
             let (spot, before) = (&self.spots[index], self.rows[index].before);
             let gained = self.velocity(index).dot(spot.contact.normal) - before;
             closing += blow.normal * before;
-            bounced += blow.normal * before * spot.contact.restitution;
+            bounced += blow.normal * before * fault::restitution(spot.contact.restitution);
             per_unit += blow.normal * gained;
         }
         if per_unit > 0.0 {
@@ -286,7 +287,7 @@ impl<'a> Round<'a> {
         let ending = old - across / row.yielding;
         let pressed = self.blows[index].normal.max(0.0);
         let sticks = ending.length() <= spot.contact.static_friction * pressed;
-        let limit = spot.contact.dynamic_friction * pressed;
+        let limit = fault::friction(spot.contact.dynamic_friction) * pressed;
         let new = if sticks { ending } else { ending.clamp_length_max(limit) };
         self.blows[index].sticks = sticks;
         let changed = row.yielding * (new - old).length();
