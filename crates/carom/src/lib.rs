@@ -63,6 +63,10 @@ pub use report::{Impact, Overlap, StepReport};
 pub use shape::Shape;
 pub use world::{Energy, Momentum, Settings, World};
 
+#[cfg(test)]
+#[path = "../tests/random/mod.rs"]
+pub(crate) mod random;
+
 /// What most programs need.
 pub mod prelude {
     pub use crate::math::{DQuat, DVec3, Quat, Vec3};

@@ -4,12 +4,10 @@ mod books;
 mod energy;
 mod islands;
 mod measure;
-#[path = "../../tests/random/mod.rs"]
-mod random;
 mod seed;
 mod width;
 
-pub(crate) use random::Random;
+pub(crate) use crate::random::Random;
 
 use super::bundle::{Bundle, Lane};
 use super::contact::sweep;

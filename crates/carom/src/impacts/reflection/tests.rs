@@ -3,9 +3,7 @@
 use super::*;
 use crate::math::DMat3;
 
-#[path = "../../../tests/random/mod.rs"]
-mod random;
-use random::Random;
+use crate::random::Random;
 
 const AT_ONCE: Start<'static> = Start { blows: &[], negligible: 0.0 };
 
