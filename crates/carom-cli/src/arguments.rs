@@ -76,7 +76,7 @@ pub struct RunArguments {
     /// Trace every K-th step only; the first and the last are always there [default: 1].
     #[arg(long, value_name = "K", value_parser = clap::value_parser!(u64).range(1..))]
     pub every: Option<u64>,
-    /// Write the books of momentum and energy to this file (not built yet).
+    /// Write momentum and energy of every step to this file, with what changed them, by cause (CSV).
     #[arg(long, value_name = "FILE.csv")]
     pub ledger: Option<PathBuf>,
     /// Write the motion as an animated glTF file (not built yet).

@@ -4,10 +4,10 @@ use crate::arguments::RunArguments;
 use crate::audit::{Auditor, Finding, Law, Place};
 use crate::failure::Failure;
 use crate::output::{Lines, note};
+use crate::records::Records;
 use crate::run::prepare;
 use crate::simulate::{Moment, Outcome, Simulation, name_of};
 use crate::text::{counted, number, rough};
-use crate::trace::Trace;
 use serde::Serialize;
 use std::fmt::Write;
 use std::ops::ControlFlow;
@@ -85,7 +85,7 @@ pub fn check(arguments: &RunArguments) -> Result<ExitCode, Failure> {
         }
         Err(failure) => return Err(failure),
     };
-    trace.map_or(Ok(()), Trace::end)?;
+    trace.map_or(Ok(()), Records::end)?;
 
     verdict.collisions = outcome.collisions;
     if verdict.without_normal > 0 && !arguments.simulation.quiet {

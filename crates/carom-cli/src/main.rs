@@ -5,7 +5,8 @@
 //! | `arguments` | the command line |
 //! | `scenes`, `nearest` | finding the scene, guessing what was meant |
 //! | `simulate`, `interrupt` | the one loop behind `run`, `check` and `explain`; Ctrl-C |
-//! | `run`, `summary`, `trace` | `carom run` and what it writes |
+//! | `run`, `summary` | `carom run` |
+//! | `records`, `trace`, `ledger` | what it writes step by step |
 //! | `explain`, `explain_text`, `explain_json` | `carom explain` |
 //! | `check`, `audit` | `carom check`, and the laws it knows |
 //! | `truth`, `truth_table` | `carom truth`: what mechanics fixes, and how near the engine comes |
@@ -21,9 +22,11 @@ mod explain_table;
 mod explain_text;
 mod failure;
 mod interrupt;
+mod ledger;
 mod list;
 mod nearest;
 mod output;
+mod records;
 mod run;
 mod scenes;
 mod simulate;

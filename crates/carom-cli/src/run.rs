@@ -5,10 +5,11 @@ use crate::explain::Collision;
 use crate::explain_text::explanation;
 use crate::failure::Failure;
 use crate::output::{Lines, note};
+use crate::records::Records;
 use crate::simulate::Simulation;
 use crate::summary::{Summary, Watcher};
-use crate::trace::Trace;
 use std::ops::ControlFlow;
+use std::path::Path;
 use std::process::ExitCode;
 
 /// The scene that `carom` alone shows.
@@ -16,16 +17,17 @@ const SHOWN: &str = "off-centre-hit";
 
 /// Simulates a scene, with a summary at the end.
 pub fn run(arguments: &RunArguments) -> Result<ExitCode, Failure> {
-    let (mut simulation, mut trace) = prepare(arguments)?;
+    let (mut simulation, mut records) = prepare(arguments)?;
+    simulation.world.keep_ledger(true);
     let mut watcher = Watcher::new(&simulation.world);
     let outcome = simulation.run(|moment| {
         watcher.look(moment);
-        if let Some(trace) = &mut trace {
-            trace.step(moment)?;
+        if let Some(records) = &mut records {
+            records.step(moment)?;
         }
         Ok(ControlFlow::Continue(()))
     })?;
-    trace.map_or(Ok(()), Trace::end)?;
+    records.map_or(Ok(()), Records::end)?;
 
     let summary = Summary::new(&simulation, &outcome, watcher);
     let mut lines = Lines::stdout();
@@ -38,21 +40,23 @@ pub fn run(arguments: &RunArguments) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// A simulation and its trace. Nothing is created before everything about the input is known to be good.
-pub fn prepare(arguments: &RunArguments) -> Result<(Simulation, Option<Trace>), Failure> {
-    for (option, given) in [("--ledger", &arguments.ledger), ("--bake", &arguments.bake)] {
-        if given.is_some() {
-            return Err(Failure::Input(format!("{option}: not built yet")));
+/// A simulation and what it writes step by step. Nothing is created before everything about the input is known to be good.
+pub fn prepare(arguments: &RunArguments) -> Result<(Simulation, Option<Records>), Failure> {
+    if arguments.bake.is_some() {
+        return Err(Failure::Input("--bake: not built yet".to_owned()));
+    }
+    let outputs = [("--trace", &arguments.trace), ("--ledger", &arguments.ledger)];
+    for (option, path) in outputs.into_iter().filter_map(|(option, path)| Some((option, path.as_ref()?))) {
+        if is_same_file(path, &arguments.simulation.scene) {
+            let path = path.display();
+            return Err(Failure::Input(format!("{option} {path}: this is the scene; it would be lost")));
         }
     }
-    if let Some(path) = &arguments.trace {
-        let same = path
-            .canonicalize()
-            .is_ok_and(|path| arguments.simulation.scene.canonicalize().is_ok_and(|scene| scene == path));
-        if same {
-            let path = path.display();
-            return Err(Failure::Input(format!("--trace {path}: this is the scene; it would be lost")));
-        }
+    if let (Some(trace), Some(ledger)) = (&arguments.trace, &arguments.ledger)
+        && (trace == ledger || is_same_file(trace, ledger))
+    {
+        let path = trace.display();
+        return Err(Failure::Input(format!("--trace and --ledger {path}: expected two different files")));
     }
     let mut simulation = Simulation::prepare(&arguments.simulation)?;
     if arguments.json {
@@ -61,9 +65,13 @@ pub fn prepare(arguments: &RunArguments) -> Result<(Simulation, Option<Trace>), 
     if arguments.every.is_some() && arguments.trace.is_none() && !arguments.simulation.quiet {
         note("--every has no effect without --trace");
     }
-    let every = arguments.every.unwrap_or(1);
-    let trace = arguments.trace.as_ref().map(|path| Trace::begin(path, &simulation, every)).transpose()?;
-    Ok((simulation, trace))
+    let records = Records::begin(arguments, &mut simulation)?;
+    Ok((simulation, records))
+}
+
+/// Whether two paths lead to one file that is there.
+fn is_same_file(one: &Path, other: &Path) -> bool {
+    one.canonicalize().is_ok_and(|one| other.canonicalize().is_ok_and(|other| one == other))
 }
 
 /// Shows what the program is for: one collision explained, a summary, and what to try next.
@@ -73,6 +81,7 @@ pub fn show() -> Result<ExitCode, Failure> {
         return Err(Failure::Other("the words `run SCENE` are no longer understood".to_owned()));
     };
     let mut simulation = Simulation::prepare(&arguments.simulation)?;
+    simulation.world.keep_ledger(true);
     let mut watcher = Watcher::new(&simulation.world);
     let mut first = None;
     let outcome = simulation.run(|moment| {

@@ -1,5 +1,6 @@
 //! What a run came to.
 
+use crate::ledger::LedgerTotals;
 use crate::simulate::{Moment, Outcome, Simulation, name_of};
 use crate::text::{counted, number, point, rough};
 use crate::trace::{Energy, Momentum};
@@ -93,6 +94,7 @@ pub struct Summary {
     energy: Change<Energy>,
     momentum: Change<Momentum>,
     worst_collision: Option<Worst>,
+    ledger: LedgerTotals,
     state_hash: String,
 }
 
@@ -117,6 +119,7 @@ impl Summary {
             energy: Change { before: watcher.energy.into(), after: world.energy().into() },
             momentum: Change { before: watcher.momentum.into(), after: world.momentum().into() },
             worst_collision: watcher.worst,
+            ledger: LedgerTotals::new(world),
             state_hash: format!("{:016x}", world.state_hash()),
         }
     }
@@ -157,6 +160,9 @@ impl Summary {
                     rough(worst.tolerance)
                 ),
             );
+        }
+        for (what, value) in self.ledger.rows() {
+            row(what, value);
         }
         row("state hash", self.state_hash.clone());
         text
@@ -216,6 +222,7 @@ mod tests {
                 after: carom::Momentum::default().into(),
             },
             worst_collision: Some(worst),
+            ledger: LedgerTotals::new(&World::new()),
             state_hash: format!("{:016x}", 0xabc),
         }
     }
@@ -240,6 +247,7 @@ mod tests {
                 "energy",
                 "momentum",
                 "worst_collision",
+                "ledger",
                 "state_hash"
             ]
         );

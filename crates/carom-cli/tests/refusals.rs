@@ -137,7 +137,6 @@ fn arguments() {
         &["run", "off-centre-hit", "--dt", "0"],
         &["run", "off-centre-hit", "--substeps", "0"],
         &["run", "off-centre-hit", "--threads", "0"],
-        &["run", "off-centre-hit", "--ledger", "ledger.csv"],
         &["run", "off-centre-hit", "--bake", "bake.glb"],
         &["explain", "off-centre-hit", "--about", "1,2"],
         &["view"],

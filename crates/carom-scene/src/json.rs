@@ -60,6 +60,7 @@ pub(crate) fn scene(document: &Json, file: &str, folder: &Path) -> Result<Scene,
         substeps: object
             .optional("substeps", |substeps| substeps.integer(SUBSTEPS_RANGE))?
             .unwrap_or(defaults.substeps),
+        ..defaults
     };
     let dt = object.optional("dt", |dt| dt.within(DT_RANGE, "s"))?.unwrap_or(DEFAULT_DT);
     let sleeping = object.optional("sleeping", Cursor::boolean)?.unwrap_or(false);

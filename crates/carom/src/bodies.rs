@@ -14,10 +14,13 @@ use crate::body::{Body, Collider, Motion};
 use crate::error::Invalid;
 use crate::filter::Filter;
 use crate::flight::{Constants, Influence, RigidState};
+use crate::ledger::Stock;
+use crate::ledger::journal::Journal;
 use crate::mass::BodyMass;
 use crate::material::Material;
 use crate::math::{DQuat, DVec3, Pose, Quat, Vec3};
 use crate::shape::Shape;
+use crate::step::motion::Plan;
 
 /// Names one body of one world, also after it has been removed: an id is never given twice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -146,6 +149,10 @@ pub(crate) struct Bodies {
     pub grains: Vec<f64>,
     /// Bounds of its speeds (m/s, rad/s) on its present path.
     pub paces: Vec<(f64, f64)>,
+    /// Forces of contacts that persist on a body's present path.
+    pub plans: Vec<Option<Plan>>,
+    /// What is noted for the ledger, if there is one.
+    pub journal: Option<Box<Journal>>,
     /// Force (N) and torque (N·m) that the user applies during the next step.
     pub forces: Vec<(DVec3, DVec3)>,
     /// The slot of each row.
@@ -166,6 +173,8 @@ impl Bodies {
             ways: vec![(0.0, 0.0)],
             grains: vec![f64::INFINITY],
             paces: vec![(0.0, 0.0)],
+            plans: vec![None],
+            journal: None,
             forces: vec![(DVec3::ZERO, DVec3::ZERO)],
             slot_of_row: vec![u32::MAX],
             colliders: Vec::new(),
@@ -240,6 +249,7 @@ impl Bodies {
             |collider: &Collider| collider.shape.reach(collider.pose.inverse_transform_point(mass.center));
         self.grains.push(description.colliders.iter().map(reach).fold(f64::INFINITY, f64::min));
         self.paces.push((0.0, 0.0));
+        self.plans.push(None);
         self.forces.push((DVec3::ZERO, DVec3::ZERO));
         self.slot_of_row.push(slot);
         self.states.len() - 1
@@ -303,6 +313,10 @@ impl Bodies {
         self.ways.swap_remove(row);
         self.grains.swap_remove(row);
         self.paces.swap_remove(row);
+        self.plans.swap_remove(row);
+        if let Some(journal) = &mut self.journal {
+            journal.swap_remove(row);
+        }
         self.forces.swap_remove(row);
         self.slot_of_row.swap_remove(row);
         let Some(&moved) = self.slot_of_row.get(row) else { return };
@@ -428,6 +442,10 @@ impl Bodies {
     pub fn put_to_sleep(&mut self, row: usize) -> bool {
         let slept = self.set_activity(row, Activity::Awake, Activity::Asleep);
         if slept {
+            if let Some(mut journal) = self.journal.take() {
+                journal.falls_asleep(row, &Stock::of_row(self, row, journal.gravity));
+                self.journal = Some(journal);
+            }
             self.states[row].velocity = DVec3::ZERO;
             self.spin(row, DVec3::ZERO);
         }

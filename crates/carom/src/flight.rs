@@ -23,7 +23,9 @@
 
 use crate::fault;
 use crate::mass::BodyMass;
-use crate::math::{DMat3, DQuat, DVec3, decay_fraction, rotated_diagonal, rotation_from_vector, sin_cos};
+use crate::math::{
+    DMat3, DQuat, DVec3, decay_fraction, decay_fractions, rotated_diagonal, rotation_from_vector, sin_cos,
+};
 
 /// Where a rigid body is and how it moves: the state that a step advances, in double precision.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -158,6 +160,46 @@ impl Constants {
         axes * ((axes.conjugate() * state.angular_momentum) * self.rotor.inverse_moments + self.driven_spin)
     }
 
+    /// Whether mass and inertia are all finite.
+    pub fn is_regular(&self) -> bool {
+        self.inverse_mass > 0.0 && self.rotor.inverse_moments.cmpgt(DVec3::ZERO).all()
+    }
+
+    /// Mass, kg; infinite where nothing pushes the body along.
+    pub fn mass(&self) -> f64 {
+        1.0 / self.inverse_mass
+    }
+
+    /// `ω = R I⁻¹Rᵀ L` of an angular momentum, without the driven spin, rad/s.
+    pub fn free_spin(&self, rotation: DQuat, momentum: DVec3) -> DVec3 {
+        self.free_spins(rotation, [momentum])[0]
+    }
+
+    /// Those of several angular momenta at one orientation.
+    pub fn free_spins<const N: usize>(&self, rotation: DQuat, momenta: [DVec3; N]) -> [DVec3; N] {
+        let inverse = self.rotor.inverse_moments;
+        if inverse.x == inverse.y && inverse.y == inverse.z {
+            return momenta.map(|momentum| momentum * inverse.x);
+        }
+        let axes = DMat3::from_quat(rotation * self.rotor.principal);
+        momenta.map(|momentum| axes * (axes.mul_transpose_vec3(momentum) * inverse))
+    }
+
+    /// The driven spin in the world, rad/s.
+    pub fn driven_velocity(&self, rotation: DQuat) -> DVec3 {
+        rotation * self.rotor.principal * self.driven_spin
+    }
+
+    /// What of an angular impulse (world axes) turns the body: nothing about axes of infinite inertia.
+    pub fn turning_part(&self, rotation: DQuat, impulse: DVec3) -> DVec3 {
+        let finite = self.rotor.inverse_moments.cmpgt(DVec3::ZERO);
+        if finite.all() {
+            return impulse;
+        }
+        let axes = rotation * self.rotor.principal;
+        axes * DVec3::select(finite, axes.conjugate() * impulse, DVec3::ZERO)
+    }
+
     /// A speed of turning (rad/s) that the body does not exceed within `time` seconds.
     ///
     /// While it turns freely `ω² ≤ 2E·a_max` (from `2E = ω·Iω`) and `ω ≤ a_max·|L|`; a torque adds `a_max·|T|` a second.
@@ -198,12 +240,26 @@ pub(crate) fn fly_center(
     time: f64,
 ) -> (DVec3, DVec3) {
     let decay = constants.linear_damping * time;
-    let fraction = decay_fraction(decay);
-    let second =
-        if decay < 1e-4 { 0.5 - decay / 6.0 + decay * decay / 24.0 } else { (1.0 - fraction) / decay };
+    let [fraction, second, _] = decay_fractions(decay);
     let (v, a) = (state.velocity, fault::gravity(influence.acceleration));
     let position = state.position + v * (time * fraction) + a * (time * time * second);
     (position, v * (1.0 - decay * fraction) + a * (time * fraction))
+}
+
+/// Where the centre of mass is in the mean over a flight of `time` seconds:
+///
+/// ```text
+/// x₀ + v₀·tψ + a·t²χ      χ = (½ − ψ)/ct → 1/6
+/// ```
+pub(crate) fn mean_center(
+    state: &RigidState,
+    constants: &Constants,
+    influence: &Influence,
+    time: f64,
+) -> DVec3 {
+    let decay = constants.linear_damping * time;
+    let [_, second, third] = decay_fractions(decay);
+    state.position + state.velocity * (time * second) + influence.acceleration * (time * time * third)
 }
 
 /// Angle (rad) of the asymmetric part of the turn up to which one composed step is taken.

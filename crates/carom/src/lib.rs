@@ -50,6 +50,7 @@ mod solver;
 // What it tells.
 mod error;
 mod fault;
+pub mod ledger;
 pub mod math;
 pub mod report;
 
@@ -58,6 +59,7 @@ pub use body::{Body, Collider, Motion, PrincipalInertia};
 pub use commands::BodyMut;
 pub use error::{Invalid, limits};
 pub use filter::{Accepts, Filter, Groups};
+pub use ledger::Ledger;
 pub use material::{Combine, Material, Surface};
 pub use report::{Impact, Overlap, StepReport};
 pub use shape::Shape;

@@ -114,6 +114,25 @@ pub fn decay_fraction(x: f64) -> f64 {
     fraction
 }
 
+/// What is left of a velocity, of the way that it leads, and of the way's integral, against those without decay: for x ≥ 0
+///
+/// ```text
+/// φ = (1 − e⁻ˣ)/x → 1      ψ = (1 − φ)/x → 1/2      χ = (1/2 − ψ)/x → 1/6
+/// ```
+pub fn decay_fractions(x: f64) -> [f64; 3] {
+    if x == 0.0 {
+        return [1.0, 0.5, 1.0 / 6.0];
+    }
+    let first = decay_fraction(x);
+    let second = if x < 1e-4 { 0.5 - x / 6.0 + x * x / 24.0 } else { (1.0 - first) / x };
+    let third = if x < 1e-2 {
+        1.0 / 6.0 - x * (1.0 / 24.0 - x * (1.0 / 120.0 - x * (1.0 / 720.0 - x / 5040.0)))
+    } else {
+        (0.5 - second) / x
+    };
+    [first, second, third]
+}
+
 /// The rotation by `vector`: about its direction, by its length in radians.
 pub fn rotation_from_vector(vector: DVec3) -> DQuat {
     let angle = vector.length();
@@ -151,6 +170,25 @@ mod tests {
         for k in 1..400 {
             let x = f64::from(k) * 0.05;
             assert!((decay_fraction(x) + (-x).exp_m1() / x).abs() < 1e-14, "{x}");
+        }
+    }
+
+    #[test]
+    fn decay_fractions_agree_with_their_series() {
+        for k in 0..400 {
+            let x = f64::from(k) * 0.002;
+            let mut truth = [0.0; 3];
+            for (number, truth) in truth.iter_mut().enumerate() {
+                // Σ (−x)ⁱ/(i + number + 1)!
+                let mut term: f64 = (1..=number + 1).map(|n| 1.0 / n as f64).product();
+                for i in 0..24 {
+                    *truth += term;
+                    term *= -x / (i + number + 2) as f64;
+                }
+            }
+            for (found, truth) in decay_fractions(x).into_iter().zip(truth) {
+                assert!((found - truth).abs() < 1e-11, "{x}: {found} is {truth}");
+            }
         }
     }
 

@@ -10,6 +10,7 @@
 //!                    five steps at that instant  impacts/strike.rs → impulse.rs
 //! fly        everyone from the last touch to the end of the step             flight.rs
 //! finish     overlaps out, states published, the report                      step/finish.rs
+//!            the ledger, where one is kept                                   ledger.rs
 //! ```
 
 pub(crate) mod broad_phase;
@@ -20,6 +21,7 @@ pub(crate) mod pairs;
 pub(crate) mod rest;
 
 use crate::impacts::time_of_impact::RestLaw;
+use crate::ledger::{contacts, impacts as collisions};
 use crate::world::World;
 use events::Events;
 use rest::Span;
@@ -30,6 +32,7 @@ pub(crate) fn step(world: &mut World, time: f64) {
     let law = RestLaw { gravity: world.settings.gravity, substep: time / f64::from(substeps), step: time };
     let start = world.time;
     world.report = Default::default();
+    world.ledger.open(&mut world.bodies, law.gravity);
 
     motion::begin_flight(&mut world.bodies, law.gravity, time);
     let found = world.broad_phase.find_pairs(&world.bodies, time);
@@ -44,6 +47,8 @@ pub(crate) fn step(world: &mut World, time: f64) {
     }
     let impacts = events.finish();
     motion::finish_flight(&mut world.bodies, time);
+    contacts::settle(&mut world.bodies);
+    collisions::book(&mut world.bodies, &impacts);
 
     world.rest.push_out(&mut world.bodies, law);
     finish::quarantine(world);
@@ -52,5 +57,6 @@ pub(crate) fn step(world: &mut World, time: f64) {
     world.report.contacts = finish::count_contacts(world, law);
 
     world.time = start + time;
+    world.ledger.close(&mut world.bodies, (time, world.time));
     world.report.record(impacts, start);
 }

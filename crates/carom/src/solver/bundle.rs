@@ -45,10 +45,17 @@ pub(crate) mod field {
     pub const ROUNDNESS: usize = 35;
     /// Slip along t₁ and t₂ that the arms' turning during the substep adds, m/s.
     pub const SWING: usize = 37;
+    /// How much closer to `b`'s idea of it than to `a`'s the place is at which impulses act, 0 to 1.
+    pub const SHARE: usize = 39;
+    /// What the bodies' drifts have moved `b` against `a` when the contact was renewed, contact frame, m.
+    pub const DRIFTED: usize = 40;
+    /// What they have moved it since, as far as the arms take account of it, m.
+    pub const SHIFT: usize = 43;
     /// The first point's lines; each further point [`POINT_LINES`] further.
-    pub const POINT: usize = 39;
+    pub const POINT: usize = 46;
 
-    /// Of a point: arm of `a` (x, y, and z of what turns with the body), then of `b`.
+    /// Of a point: arm of `a` (x, y, and z of what turns with the body), then of `b`. Arms of both end at one place, also when
+    /// the bodies have moved against each other.
     pub const ARM_A: usize = 0;
     pub const ARM_B: usize = 3;
     /// Separation when the two bodies are at their anchors, m.

@@ -43,18 +43,25 @@ impl<L: Lanes> Frame<L> {
 }
 
 #[inline(always)]
-fn line<L: Lanes>(bundle: &Bundle, line: usize, part: usize) -> L {
+pub(super) fn line<L: Lanes>(bundle: &Bundle, line: usize, part: usize) -> L {
     L::load(&bundle.lines[line], part)
 }
 
 #[inline(always)]
-fn vector<L: Lanes>(bundle: &Bundle, first: usize, part: usize) -> Vector<L> {
+pub(super) fn vector<L: Lanes>(bundle: &Bundle, first: usize, part: usize) -> Vector<L> {
     Vector::new(line(bundle, first, part), line(bundle, first + 1, part), line(bundle, first + 2, part))
 }
 
 #[inline(always)]
 fn tensor<L: Lanes>(bundle: &Bundle, first: usize, part: usize) -> Tensor<L> {
     Tensor([0, 1, 2, 3, 4, 5].map(|entry| line(bundle, first + entry, part)))
+}
+
+#[inline(always)]
+fn store<L: Lanes>(v: Vector<L>, bundle: &mut Bundle, first: usize, part: usize) {
+    v.x.store(&mut bundle.lines[first], part);
+    v.y.store(&mut bundle.lines[first + 1], part);
+    v.z.store(&mut bundle.lines[first + 2], part);
 }
 
 #[inline(always)]
@@ -128,7 +135,8 @@ fn drift_of_arm<L: Lanes>(frame: &Frame<L>, row: &[L; 8]) -> Vector<L> {
     Vector::new(two * (x * z - w * y), two * (y * z + w * x), -two * (x * x + y * y))
 }
 
-/// Finds the separation of every point from the bodies' `drifts` since their anchors.
+/// Finds the separation of every point from the bodies' `drifts` since their anchors, and lets both arms end where impulses act
+/// now.
 #[inline(always)]
 pub(crate) fn measure<L: Lanes>(bundle: &mut Bundle, drifts: &[Row]) {
     for part in 0..LANES / L::WIDTH {
@@ -137,11 +145,12 @@ pub(crate) fn measure<L: Lanes>(bundle: &mut Bundle, drifts: &[Row]) {
         let drift_b = L::gather(drifts, indices(&bundle.b, part, L::WIDTH));
         let apart = (linear(&drift_b) - linear(&drift_a)).dot(frame.normal);
         let (turn_a, turn_b) = (drift_of_arm(&frame, &drift_a), drift_of_arm(&frame, &drift_b));
+        let moved = frame.inward(linear(&drift_b) - linear(&drift_a)) - vector(bundle, field::DRIFTED, part);
+        let shifts = Shifts::new(bundle, moved, part);
         let (mut gap, mut widest) = (L::splat(f32::MAX), L::splat(f32::MIN));
         for point in 0..bundle.points {
             let at = |line: usize| field::of_point(point, line);
-            let arm_a = vector::<L>(bundle, at(field::ARM_A), part);
-            let arm_b = vector::<L>(bundle, at(field::ARM_B), part);
+            let (arm_a, arm_b) = shifts.apply(bundle, [at(field::ARM_A), at(field::ARM_B)], part);
             let base = line::<L>(bundle, at(field::BASE), part);
             let separation = base + apart + turn_b.dot(arm_b) - turn_a.dot(arm_a);
             separation.store(&mut bundle.lines[at(field::SEPARATION)], part);
@@ -149,8 +158,36 @@ pub(crate) fn measure<L: Lanes>(bundle: &mut Bundle, drifts: &[Row]) {
             gap = L::select_greater(real, L::splat(0.0), [gap.min(separation), gap]);
             widest = L::select_greater(real, L::splat(0.0), [widest.max(separation), widest]);
         }
+        shifts.apply(bundle, [field::FRICTION_ARM_A, field::FRICTION_ARM_B], part);
+        store(moved, bundle, field::SHIFT, part);
         widest.store(&mut bundle.lines[field::WIDEST], part);
         gap.store(&mut bundle.lines[field::GAP], part);
+    }
+}
+
+/// What arms get when `b` has moved against `a`: so far, and now.
+struct Shifts<L> {
+    before: [Vector<L>; 2],
+    after: [Vector<L>; 2],
+}
+
+impl<L: Lanes> Shifts<L> {
+    #[inline(always)]
+    fn new(bundle: &Bundle, moved: Vector<L>, part: usize) -> Self {
+        let share = line::<L>(bundle, field::SHARE, part);
+        let split = |moved: Vector<L>| [moved.scaled(share), moved.scaled(share - L::splat(1.0))];
+        Self { before: split(vector(bundle, field::SHIFT, part)), after: split(moved) }
+    }
+
+    /// Shifts both arms; returns what they were when the contact was renewed.
+    #[inline(always)]
+    fn apply(&self, bundle: &mut Bundle, arms: [usize; 2], part: usize) -> (Vector<L>, Vector<L>) {
+        let renewed = [0, 1].map(|side| {
+            let arm = vector::<L>(bundle, arms[side], part) - self.before[side];
+            store(arm + self.after[side], bundle, arms[side], part);
+            arm
+        });
+        (renewed[0], renewed[1])
     }
 }
 

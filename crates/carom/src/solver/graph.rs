@@ -5,12 +5,14 @@
 //! bodies that move come first, those with the ground last, so that in doubt nothing is pushed into the ground.
 //!
 //! Bodies that contacts connect make an *island* (`graph/islands.rs`). What is done until the velocities of an island agree
-//! stands in `graph/agree.rs`.
+//! stands in `graph/agree.rs`; what contacts then exert, in `graph/wrench.rs`.
 
 mod agree;
 mod islands;
+mod wrench;
 
 pub(crate) use agree::Effort;
+pub(crate) use wrench::Wrench;
 
 use super::bundle::{Bundle, Lane, POINTS, field};
 use super::contact;
@@ -23,6 +25,12 @@ type Wide = Portable<4>;
 /// Names a contact as long as it lasts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct ContactId(u32);
+
+impl ContactId {
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
 
 /// Where a contact is.
 #[derive(Clone, Copy, Debug)]
@@ -234,12 +242,12 @@ impl Graph {
         }
     }
 
-    /// Finds displacements that take `share` of every overlap beyond `allowed` (m) away, into rows that hold none yet; false if
-    /// there is no such overlap.
-    pub fn push_out(&mut self, displacements: &mut [Row], share: f32, allowed: f32) -> bool {
+    /// Finds displacements that take `share` of every overlap beyond `allowed` (m) away, into rows that hold none yet, and which
+    /// contact pushes how: displacements times masses, in place of impulses (kg·m).
+    pub fn push_out(&mut self, displacements: &mut [Row], share: f32, allowed: f32) -> Vec<Wrench> {
         let overlaps = |bundle: &Bundle| bundle.lines[field::GAP].0.iter().any(|&gap| gap < -allowed);
         if !self.colors.iter().flat_map(|color| &color.bundles).any(overlaps) {
-            return false;
+            return Vec::new();
         }
         let impulses: Vec<[Line; POINTS]> = self
             .order()
@@ -257,13 +265,14 @@ impl Graph {
         for _ in 0..PUSH_SWEEPS {
             self.each_bundle(|bundle| contact::sweep_normals::<Wide>(bundle, displacements));
         }
+        let wrenches = self.wrenches(displacements);
         let mut impulses = impulses.into_iter();
         self.each_bundle(|bundle| {
             for (point, line) in impulses.next().into_iter().flatten().enumerate() {
                 bundle.lines[field::of_point(point, field::IMPULSE)] = line;
             }
         });
-        true
+        wrenches
     }
 }
 

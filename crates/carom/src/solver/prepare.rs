@@ -129,7 +129,19 @@ pub(crate) fn lane(
     put(field::HORIZON, terms.horizon);
     put(field::ROUNDNESS, sides[0].roundness);
     put(field::ROUNDNESS + 1, sides[1].roundness);
+    put(field::SHARE, share(sides));
+    put_vector(&mut put, field::DRIFTED, frame.inward(sides[1].drift.0 - sides[0].drift.0));
     lane
+}
+
+/// Where the two bodies' ideas of a place differ, the lighter one's counts more: an error of the arm would turn it more.
+fn share([a, b]: &[Side; 2]) -> f64 {
+    let weights = if a.inverse_mass + b.inverse_mass > 0.0 {
+        [a.inverse_mass, b.inverse_mass]
+    } else {
+        [a, b].map(|side| f64::from(side.inverse_inertia != DMat3::ZERO))
+    };
+    weights[1] / (weights[0] + weights[1]).max(f64::MIN_POSITIVE)
 }
 
 fn put_vector(put: &mut impl FnMut(usize, f64), line: usize, v: DVec3) {

@@ -127,6 +127,11 @@ impl Rows {
         *since
     }
 
+    /// The pose that a body had when its contacts were last looked at.
+    pub fn anchor_of(&self, row: usize) -> &Pose {
+        &self.anchors[row]
+    }
+
     /// A body is where its contacts are looked at.
     pub fn anchor(&mut self, bodies: &Bodies, row: usize) {
         if row != WORLD_ROW {

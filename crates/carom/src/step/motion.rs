@@ -1,14 +1,16 @@
 //! The bodies' motion within a step: each has its own clock, and flies from one touch to the next.
 
 use crate::bodies::{Bodies, WORLD_ROW};
-use crate::flight::{Influence, RigidState, fly};
+use crate::flight::{Influence, RigidState, fly, fly_center, mean_center};
 use crate::impacts::time_of_impact::RestLaw;
+use crate::ledger::flights::{flown, kept_to_plan};
 use crate::math::DVec3;
 
 /// Sets all clocks to the start of a step of `time` seconds, and what gravity and the user's forces do during it.
 pub(crate) fn begin_flight(bodies: &mut Bodies, gravity: DVec3, time: f64) {
     for row in bodies.rows() {
         bodies.clocks[row] = 0.0;
+        bodies.plans[row] = None;
         bodies.influences[row] =
             if bodies.is_asleep(row) { Influence::default() } else { free_influence(bodies, row, gravity) };
         set_pace(bodies, row, time);
@@ -28,6 +30,7 @@ pub(crate) fn set_pace(bodies: &mut Bodies, row: usize, end: f64) {
 pub(crate) fn free_influence(bodies: &Bodies, row: usize, gravity: DVec3) -> Influence {
     let constants = &bodies.constants[row];
     let (force, torque) = bodies.forces[row];
+    let torque = if constants.is_movable() { torque } else { DVec3::ZERO };
     Influence { acceleration: gravity * constants.gravity_factor + force * constants.inverse_mass, torque }
 }
 
@@ -47,8 +50,64 @@ pub(crate) fn advance(bodies: &mut Bodies, row: usize, time: f64) {
         return;
     }
     bodies.ways[row] = bodies.way(row, time);
+    let before = bodies.states[row];
     bodies.states[row] = state_at(bodies, row, time);
+    if bodies.journal.is_some() {
+        flown(bodies, row, &before, time - bodies.clocks[row]);
+    }
+    if bodies.plans[row].is_some() {
+        keep_to_plan(bodies, row, &before, time);
+    }
     bodies.clocks[row] = time;
+}
+
+/// What contacts exert evenly during a substep, at places that hold for the path on which the body was then. A collision may
+/// take it off this path; the force goes on acting where it was, as it does on the other body.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Plan {
+    /// N
+    force: DVec3,
+    /// Where and how fast the body was at the start of its path, and its time within the step, s.
+    position: DVec3,
+    velocity: DVec3,
+    from: f64,
+    until: f64,
+    /// How far off its path it has been so far, times how long, m·s.
+    stray: DVec3,
+}
+
+impl Plan {
+    /// A force on a body that is now in this state; none if nothing pushes it along.
+    pub fn of(force: DVec3, state: &RigidState, (from, until): (f64, f64)) -> Option<Self> {
+        let (position, velocity) = (state.position, state.velocity);
+        let pushes = force.is_finite() && force != DVec3::ZERO;
+        pushes.then_some(Self { force, position, velocity, from, until, stray: DVec3::ZERO })
+    }
+}
+
+/// A path ends at the end of its substep, which may round differently from that of its step.
+const ROUNDING: f64 = 1e-9;
+
+/// Notes how far a body that has got from the state `before` to its own by `time` was off its path meanwhile. At the end of that path, its
+/// angular momentum gets what the force did by acting at a place that had moved against the body.
+fn keep_to_plan(bodies: &mut Bodies, row: usize, before: &RigidState, time: f64) {
+    let Some(plan) = &mut bodies.plans[row] else { return };
+    let (clock, constants, influence) = (bodies.clocks[row], &bodies.constants[row], &bodies.influences[row]);
+    if clock > plan.from || before.velocity != plan.velocity {
+        let start = RigidState { position: plan.position, velocity: plan.velocity, ..*before };
+        let (position, velocity) = fly_center(&start, constants, influence, clock - plan.from);
+        let planned = RigidState { position, velocity, ..*before };
+        let flown = time - clock;
+        let mean = |state: &RigidState| mean_center(state, constants, influence, flown);
+        plan.stray += (mean(before) - mean(&planned)) * flown;
+    }
+    if plan.until - time <= ROUNDING * (plan.until - plan.from) {
+        let wanted = plan.force.cross(plan.stray);
+        let turn = constants.turning_part(bodies.states[row].rotation, wanted);
+        bodies.states[row].angular_momentum += turn;
+        bodies.plans[row] = None;
+        kept_to_plan(bodies, row, [turn, wanted]);
+    }
 }
 
 /// Where a body will be at `time` within the step if nothing touches it before.

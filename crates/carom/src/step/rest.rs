@@ -16,11 +16,15 @@
 //! rest/renew.rs     contacts looked at anew where bodies have moved
 //! rest/remember.rs  what pressed goes on pressing
 //! rest/crowds.rs    where many bodies rest against each other
-//! rest/hold.rs      impulses, and the paths that they give; overlaps out; rest capture
+//! rest/hold.rs      impulses
+//! rest/give.rs      the paths that they give; rest capture
+//! rest/push_out.rs  overlaps out
 //! ```
 
 mod crowds;
+mod give;
 mod hold;
+mod push_out;
 mod remember;
 mod renew;
 #[cfg(test)]
@@ -43,6 +47,8 @@ pub(crate) struct Rest {
     /// The pairs that rest, in the order in which they came to.
     resting: Vec<usize>,
     crowds: Crowds,
+    /// Whether each contact would bounce if it were struck faster.
+    bounces: Vec<bool>,
 }
 
 /// A stretch of a step.
@@ -54,7 +60,13 @@ pub(crate) struct Span {
 
 impl Rest {
     pub fn new() -> Self {
-        Self { graph: Graph::default(), rows: Rows::new(), resting: Vec::new(), crowds: Crowds::default() }
+        Self {
+            graph: Graph::default(),
+            rows: Rows::new(),
+            resting: Vec::new(),
+            crowds: Crowds::default(),
+            bounces: Vec::new(),
+        }
     }
 
     /// Starts a step with other pairs; those that have `parted` lose their contacts.

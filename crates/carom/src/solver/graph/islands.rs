@@ -57,6 +57,19 @@ impl Graph {
         self.islands.of(bundle.a[lane]).or(self.islands.of(bundle.b[lane]))
     }
 
+    /// Whether every body of a row's island is among those that `holds` tells of, row by row.
+    pub fn in_whole_islands(&self, holds: &mut [bool]) {
+        let mut whole = vec![true; self.islands.sizes.len()];
+        for (row, &holds) in holds.iter().enumerate().filter(|(_, holds)| !**holds) {
+            if let Some(island) = self.islands.of(row as u32) {
+                whole[island] = holds;
+            }
+        }
+        for (row, holds) in holds.iter_mut().enumerate() {
+            *holds &= self.islands.of(row as u32).is_none_or(|island| whole[island]);
+        }
+    }
+
     /// How fast the bodies of each island move against each other, m/s.
     pub(super) fn spreads(&self, velocities: &[Row]) -> Vec<f32> {
         let mut spreads = vec![Spread::NONE; self.islands.sizes.len()];

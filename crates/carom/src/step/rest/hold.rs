@@ -1,11 +1,13 @@
-//! What holds the bodies that rest during a substep, and the paths that this gives them.
+//! What holds the bodies that rest during a substep.
 
+use super::give::Held;
 use super::renew::{DRIFT, DRIFT_WITHIN};
 use super::{Rest, Span};
 use crate::bodies::Bodies;
 use crate::flight::Influence;
 use crate::impacts::time_of_impact::RestLaw;
-use crate::math::{DVec3, rotation_from_vector};
+use crate::ledger::contacts::settle;
+use crate::math::DVec3;
 use crate::solver::direct::Mobility;
 use crate::solver::graph::Effort;
 use crate::solver::lanes::Row;
@@ -28,32 +30,9 @@ const SWEEPS: u32 = 2;
 const IN_MOTION: u32 = 40;
 const BUDGET: u32 = 40_000;
 
-/// Share of an overlap that is pushed out at the end of a step.
-const PUSH_OUT: f32 = 0.5;
-
-/// Where the sweeps change a body's velocity by less than this share of what gravity does, the forces on it persist.
+/// Where the sweeps change a body's velocity by less than this share of what gravity does, the forces on it persist: in an island
+/// all of them or none, since what acts all the time on one body cannot act at the start on the other.
 const STEADY: f64 = 0.05;
-
-/// What rests on something with friction, goes nowhere and moves no faster than [`CAPTURED`] rest thresholds loses
-/// this share of its speed in a second, fading out towards that speed. Rolling has no friction of its own: without it a ball would roll about
-/// a pile, or rock in a hollow of it, for ever at a speed that gravity and the substep hardly tell from rest.
-const RESISTANCE: f64 = 2.0;
-const CAPTURED: f64 = 8.0;
-
-/// A body rests on something if contacts push it by more than this share of what gravity does. It goes nowhere if its velocity
-/// changes by no more than the second, so that what starts to roll down a slope does so freely; or if for so long (s) it has stayed
-/// where any such start would have taken it away from.
-const SUPPORTED: f64 = 0.5;
-const DRIVEN: f64 = 0.01;
-const LINGERED: f64 = 1.0;
-
-/// What a substep gives to a body that contacts leave alone.
-struct Gain {
-    /// Velocity (m/s) and angular momentum (N·m·s).
-    free: [DVec3; 2],
-    /// The velocity that it would end with.
-    velocity: Row,
-}
 
 impl Rest {
     /// Finds what holds the bodies that rest on something during `span`, and gives them their paths; returns the rows whose
@@ -63,6 +42,7 @@ impl Rest {
         for &row in &held {
             advance(bodies, row, span.from);
         }
+        settle(bodies);
         let mut freed = Vec::new();
         let limit = if span.from == 0.0 { DRIFT } else { DRIFT_WITHIN };
         self.renew_moved(bodies, pairs, &held, (law, span, limit));
@@ -80,36 +60,33 @@ impl Rest {
         rerouted
     }
 
-    /// Solves, and turns the velocities found into paths.
+    /// Solves, and gives the impulses found to the bodies.
     fn push(&mut self, bodies: &mut Bodies, pairs: &Pairs, (law, span): (RestLaw, Span)) -> Vec<usize> {
         let substep = span.until - span.from;
         let is_rough = self.rough_rows(bodies.states.len(), pairs);
-        let held = self.rows.held().to_vec();
-        let gains: Vec<Gain> = held.iter().map(|&row| self.gain(bodies, row, (law, substep))).collect();
+        let rows = self.rows.held().to_vec();
+        let gains: Vec<[DVec3; 2]> = rows.iter().map(|&row| self.gain(bodies, row, (law, substep))).collect();
         let gravity = law.gravity.length() * substep;
         self.graph.begin(&mut self.rows.velocities, [law.contact_margin(), LIVELY * gravity], substep);
-        let persisting: Vec<Row> = held.iter().map(|&row| self.rows.velocities[row]).collect();
+        let persisting: Vec<Row> = rows.iter().map(|&row| self.rows.velocities[row]).collect();
         self.solve(bodies, gravity);
 
-        for ((&row, gain), warm) in held.iter().zip(gains).zip(persisting) {
-            if !bodies.constants[row].is_movable() || bodies.is_asleep(row) {
-                continue;
-            }
-            let after = self.rows.velocities[row];
-            let [linear, angular] = difference(&after, &gain.velocity);
-            let inertia = bodies.constants[row].inertia(bodies.states[row].rotation);
-            let mut change = [gain.free[0] + linear, gain.free[1] + inertia * angular];
-            let pull = gain.free[0].length();
-            let stays = self.goes_nowhere(bodies, row, (change[0].length(), pull, substep));
-            if is_rough[row] && linear.length() > SUPPORTED * pull && stays {
-                capture(bodies, row, &mut change, law);
-            }
-            let sudden = difference(&after, &warm);
-            let steady = sudden[0].length().max(sudden[1].length() * bodies.grains[row]) <= STEADY * pull;
-            follow(bodies, row, change, (substep, steady));
-            set_pace(bodies, row, span.until);
+        let mut is_steady = vec![true; bodies.states.len()];
+        for ((&row, gain), warm) in rows.iter().zip(&gains).zip(persisting) {
+            let [linear, angular] = difference(&self.rows.velocities[row], &warm);
+            let sudden = linear.length().max(angular.length() * bodies.grains[row]);
+            is_steady[row] = sudden <= STEADY * gain[0].length() || !is_free(bodies, row);
         }
-        held
+        self.graph.in_whole_islands(&mut is_steady);
+        let held: Vec<Held> = rows
+            .iter()
+            .zip(gains)
+            .filter(|(row, _)| is_free(bodies, **row))
+            .map(|(&row, gain)| Held { row, gain, steady: is_steady[row], rough: is_rough[row] })
+            .collect();
+        let wrenches = self.graph.wrenches(&self.rows.velocities);
+        self.give(bodies, wrenches, &held, (law, span));
+        rows
     }
 
     /// Which bodies touch something with friction.
@@ -122,8 +99,9 @@ impl Rest {
         is_rough
     }
 
-    /// Reads the velocity that a body would have at the end of the substep if no contact pushed.
-    fn gain(&mut self, bodies: &Bodies, row: usize, (law, substep): (RestLaw, f64)) -> Gain {
+    /// Reads the velocity that a body would have at the end of the substep if no contact pushed; what of it, and of its angular
+    /// momentum, is gained in this substep (m/s, N·m·s).
+    fn gain(&mut self, bodies: &Bodies, row: usize, (law, substep): (RestLaw, f64)) -> [DVec3; 2] {
         let free = if bodies.is_asleep(row) {
             Influence::default()
         } else {
@@ -132,7 +110,7 @@ impl Rest {
         let inverse_inertia = bodies.constants[row].inverse_inertia(bodies.states[row].rotation);
         let [velocity, momentum] = [free.acceleration * substep, free.torque * substep];
         self.rows.read_velocity(bodies, row, [velocity, inverse_inertia * momentum]);
-        Gain { free: [velocity, momentum], velocity: self.rows.velocities[row] }
+        [velocity, momentum]
     }
 
     /// Finds impulses with which all velocities agree; `gravity` is what it does in a substep, m/s.
@@ -153,75 +131,15 @@ impl Rest {
             })
         });
     }
-
-    /// Whether a body whose velocity changes by `change` (m/s) in a substep, in which what pulls it would change it by `pull`,
-    /// goes nowhere.
-    fn goes_nowhere(
-        &mut self,
-        bodies: &Bodies,
-        row: usize,
-        (change, pull, substep): (f64, f64, f64),
-    ) -> bool {
-        let haunt = 0.5 * DRIVEN * pull / substep * LINGERED * LINGERED;
-        let lingers = self.rows.stay(row, bodies.states[row].position, (haunt, substep)) >= LINGERED;
-        lingers || change < DRIVEN * pull
-    }
-
-    /// Pushes overlaps out, at the end of a step; velocities stay.
-    pub fn push_out(&mut self, bodies: &mut Bodies, law: RestLaw) {
-        let held = self.rows.held().to_vec();
-        for &row in &held {
-            self.rows.read_drift(bodies, row, 1.0);
-            let velocity = self.rows.velocities[row].0;
-            let still = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, velocity[6], velocity[7]];
-            self.rows.displacements[row] = Row(still);
-        }
-        self.graph.measure(&self.rows.drifts);
-        let allowed = law.overlap_left() as f32;
-        if !self.graph.push_out(&mut self.rows.displacements, PUSH_OUT, allowed) {
-            return;
-        }
-        for &row in &held {
-            let [linear, angular] = difference(&self.rows.displacements[row], &Row::ZERO);
-            if linear != DVec3::ZERO || angular != DVec3::ZERO {
-                let state = &mut bodies.states[row];
-                state.position += linear;
-                state.rotation = (rotation_from_vector(angular) * state.rotation).normalize();
-                bodies.ways[row].0 += linear.length();
-                bodies.ways[row].1 += angular.length();
-            }
-        }
-    }
 }
 
+/// Whether impulses change how the body of a row moves.
+fn is_free(bodies: &Bodies, row: usize) -> bool {
+    bodies.constants[row].is_movable() && !bodies.is_asleep(row)
+}
+
+/// The velocities of a row after the sweeps against those before, m/s and rad/s.
 fn difference(after: &Row, before: &Row) -> [DVec3; 2] {
     let change = |index: usize| f64::from(after.0[index] - before.0[index]);
     [DVec3::new(change(0), change(1), change(2)), DVec3::new(change(3), change(4), change(5))]
-}
-
-/// Rest capture: takes a little of what a supported body has near the rest threshold. Vanishes without gravity.
-fn capture(bodies: &Bodies, row: usize, change: &mut [DVec3; 2], law: RestLaw) {
-    let (state, constants) = (&bodies.states[row], &bodies.constants[row]);
-    let (velocity, momentum) = (state.velocity + change[0], state.angular_momentum + change[1]);
-    let spin = constants.inverse_inertia(state.rotation) * momentum;
-    let share = |speed: f64| {
-        let slowness = 1.0 - speed / (CAPTURED * law.rest_speed());
-        RESISTANCE * law.substep * slowness.max(0.0)
-    };
-    change[0] -= share(velocity.length()) * velocity;
-    change[1] -= share(spin.length() * bodies.grains[row]) * momentum;
-}
-
-/// Sets a body on its path for a substep in which its velocity and angular momentum get `change`d: a parabola where the forces
-/// persist, so that what slides or rolls gets the distance right; else with the new velocity from the start, as what meets
-/// an obstacle must not go on into it for half a substep.
-fn follow(bodies: &mut Bodies, row: usize, change: [DVec3; 2], (substep, steady): (f64, bool)) {
-    let state = &mut bodies.states[row];
-    bodies.influences[row] = if steady {
-        Influence { acceleration: change[0] / substep, torque: change[1] / substep }
-    } else {
-        state.velocity += change[0];
-        state.angular_momentum += change[1];
-        Influence::default()
-    };
 }

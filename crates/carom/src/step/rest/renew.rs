@@ -1,7 +1,8 @@
 //! Contacts looked at anew: where the bodies have moved, and where a pair has just come to rest.
 //!
 //! A body's contacts stay as they are while it lies still: what it moves meanwhile is measured from its *anchor*, the pose that
-//! it had when they were last renewed. Impulses go over from the old contacts to the new ones (`remember.rs`).
+//! it had when they were last renewed. All of them take its inertia as it was then: large impulses that cancel must do so in the
+//! angular velocity too. Impulses go over from the old contacts to the new ones (`remember.rs`).
 
 use super::remember::remembered;
 use super::{Rest, Span, horizon};
@@ -44,7 +45,7 @@ impl Rest {
                 center: center.position,
                 inverse_mass: constants.inverse_mass,
                 inverse_inertia: if movable {
-                    constants.inverse_inertia(center.rotation)
+                    constants.inverse_inertia(self.rows.anchor_of(collider.row).rotation)
                 } else {
                     DMat3::ZERO
                 },
@@ -80,6 +81,8 @@ impl Rest {
                     self.graph.insert(rows, movable, lane)
                 }
             };
+            self.bounces.resize(self.bounces.len().max(contact.index() + 1), false);
+            self.bounces[contact.index()] = pair.surface.restitution > 0.0;
             pair.supports.push(Support::new(contact, manifold));
         }
         for support in old.iter().skip(lanes.len()) {

@@ -1,0 +1,211 @@
+//! What flights do: gravity, the user's forces, damping, turning.
+//!
+//! Along a flight of the engine's all of this has closed forms. With `Δx` the way of the centre of mass and `x̄` its mean place,
+//! a force F that acts evenly during the time t gives the impulse `F·t`, the angular momentum `x̄ × F·t` and the work `F·Δx`;
+//! what gravity does is taken from potential energy. Damping `dv/dt = a − c·v` takes the impulse `m·c·Δx`.
+//!
+//! The angular momentum gets half of a torque's impulse before the body turns and half after. An impulse J that takes the angular
+//! velocity from ω to ω' at one orientation does the work `½J·(ω + ω')`; while the body turns nothing acts, so that what its
+//! energy changes by meanwhile is the integrator's.
+
+use super::journal::{INTEGRATION, Journal, Passage, Path, Tally};
+use crate::bodies::Bodies;
+use crate::flight::{Constants, Influence, RigidState, mean_center};
+use crate::math::{DVec3, decay_fractions};
+
+/// A stretch of a body's path.
+struct Flight<'a> {
+    before: &'a RigidState,
+    after: &'a RigidState,
+    constants: &'a Constants,
+    influence: &'a Influence,
+    time: f64,
+    /// Gravity's force and the user's, N, and the user's torque, N·m.
+    pull: DVec3,
+    push: DVec3,
+    torque: DVec3,
+    /// Whether they act along this path.
+    acts: bool,
+}
+
+/// Books what the body of `row`, which had the state `before`, did within `time` seconds to get to its own.
+pub(crate) fn flown(bodies: &mut Bodies, row: usize, before: &RigidState, time: f64) {
+    let Some(journal) = bodies.journal.as_deref_mut() else { return };
+    let (constants, influence) = (&bodies.constants[row], &bodies.influences[row]);
+    if !constants.is_movable() {
+        return;
+    }
+    let (push, torque) = bodies.forces[row];
+    let rests = *influence == Influence::default() && push == DVec3::ZERO && torque == DVec3::ZERO;
+    let path = journal.passages[row].path;
+    let flight = Flight {
+        before,
+        after: &bodies.states[row],
+        constants,
+        influence,
+        time,
+        pull: weight(constants, journal.gravity),
+        push,
+        torque,
+        acts: path == Path::Steady || (path == Path::Free && !rests),
+    };
+    if constants.inverse_mass > 0.0 {
+        flight.book_center(journal, row);
+    }
+    flight.book_turning(journal, row);
+}
+
+/// Gravity's force on a body, N; nothing on what has infinite mass.
+pub(super) fn weight(constants: &Constants, gravity: DVec3) -> DVec3 {
+    if constants.inverse_mass > 0.0 {
+        constants.mass() * constants.gravity_factor * gravity
+    } else {
+        DVec3::ZERO
+    }
+}
+
+impl Flight<'_> {
+    fn book_center(&self, journal: &mut Journal, row: usize) {
+        let (posts, tally) = (&mut journal.posts, &mut journal.tallies[row]);
+        let way = self.after.position - self.before.position;
+        let passage = &mut journal.passages[row];
+        if passage.path == Path::Steady {
+            passage.way += way;
+        }
+        if self.acts {
+            let mean = mean_center(self.before, self.constants, self.influence, self.time);
+            let (pull, push) = (self.pull * self.time, self.push * self.time);
+            posts.gravity.add(pull, mean.cross(pull));
+            tally.get(pull + push, mean.cross(pull + push), self.push.dot(way));
+            if self.push != DVec3::ZERO {
+                posts.external.add(push, mean.cross(push));
+                posts.work_external += self.push.dot(way);
+            }
+        } else {
+            // Gravity has acted before, or does not: only potential energy changes.
+            let fallen = -self.pull.dot(way);
+            posts.integration += fallen;
+            tally.get_artefact(INTEGRATION, fallen);
+        }
+        if self.constants.linear_damping > 0.0 {
+            self.book_drag(journal, row, way);
+        }
+    }
+
+    /// With `v̄` the mean of the velocities before and after, `½m(v'² − v²) = m·v̄·(v' − v) = m·v̄·(a·t − c·Δx)`, of which `m·a·Δx` is the
+    /// work of what accelerates.
+    ///
+    /// The drag's moment is `−mc∫x × v`, and `(x − x₀) × v = v₀ × a (A² − B·E)` with `E = e^(−ct)`, `A = ∫E`, `B = ∫A`.
+    fn book_drag(&self, journal: &mut Journal, row: usize, way: DVec3) {
+        let (mass, damping) = (self.constants.mass(), self.constants.linear_damping);
+        let (acceleration, time) = (self.influence.acceleration, self.time);
+        let velocity = 0.5 * (self.before.velocity + self.after.velocity);
+        let drag = -mass * damping * way;
+        let loss = mass * (damping * way.dot(velocity) - acceleration.dot(velocity * time - way));
+        let sector = self.before.velocity.cross(acceleration) * (sector(damping * time) * time * time * time);
+        let moment = self.before.position.cross(drag) - mass * damping * sector;
+        journal.posts.external.add(drag, moment);
+        journal.posts.loss_damping += loss;
+        journal.tallies[row].get(drag, moment, -loss);
+    }
+
+    fn book_turning(&self, journal: &mut Journal, row: usize) {
+        let (before, after, constants, time) = (self.before, self.after, self.constants, self.time);
+        let (posts, tally) = (&mut journal.posts, &mut journal.tallies[row]);
+        let kick = 0.5 * time * self.influence.torque;
+        let momentum = before.angular_momentum + kick;
+        let [start, first] = constants.free_spins(before.rotation, [before.angular_momentum, momentum]);
+        let [last, end] = constants.free_spins(after.rotation, [momentum, after.angular_momentum]);
+        let turned = 0.5 * momentum.dot(last - first);
+        if constants.driven_spin == DVec3::ZERO {
+            posts.integration += turned;
+            tally.get_artefact(INTEGRATION, turned);
+        } else {
+            posts.work_kinematic += turned;
+            tally.get(DVec3::ZERO, DVec3::ZERO, turned);
+        }
+
+        let mut left = 1.0;
+        if constants.angular_damping > 0.0 {
+            let decay = constants.angular_damping * time;
+            left = 1.0 - decay * decay_fractions(decay)[0];
+            let loss = 0.5 * momentum.dot(last) * (1.0 - left * left);
+            posts.external.angular -= momentum * (1.0 - left);
+            posts.loss_damping += loss;
+            tally.get(DVec3::ZERO, -momentum * (1.0 - left), -loss);
+        }
+
+        let passage = &mut journal.passages[row];
+        let by_user = self.acts && self.torque != DVec3::ZERO;
+        if passage.path != Path::Steady && !by_user {
+            return;
+        }
+        let turn = (start + first + last * left + end) * (0.25 * time);
+        passage.turn += turn;
+        if by_user {
+            let impulse = self.torque * time;
+            posts.external.angular += impulse;
+            posts.work_external += self.torque.dot(turn);
+            tally.get(DVec3::ZERO, impulse, self.torque.dot(turn));
+        }
+    }
+}
+
+/// `(A² − B·E)` integrated over a flight with the decay x = ct, over t³: `(2ψ − φ²)/x − φψ → 1/6`.
+fn sector(x: f64) -> f64 {
+    if x < 1e-2 {
+        return 1.0 / 6.0 - x * (1.0 / 12.0 - x * (1.0 / 40.0 - x / 180.0));
+    }
+    let [first, second, _] = decay_fractions(x);
+    (2.0 * second - first * first) / x - first * second
+}
+
+/// Books what the body of `row`, which had the state `before`, got at the start of a substep of `time` seconds: nothing if its path
+/// is `steady`, else all that gravity and the user's forces give. What contacts give is booked when the substep is over.
+pub(crate) fn set_out(bodies: &mut Bodies, row: usize, before: &RigidState, (time, steady): (f64, bool)) {
+    let Some(journal) = bodies.journal.as_deref_mut() else { return };
+    if steady {
+        journal.passages[row] =
+            Passage { path: Path::Steady, rotation: before.rotation, ..Passage::default() };
+        return;
+    }
+    let (after, constants) = (&bodies.states[row], &bodies.constants[row]);
+    let way = (before.velocity + after.velocity) * (0.5 * time);
+    let momentum = 0.5 * (before.angular_momentum + after.angular_momentum);
+    let turn = constants.free_spin(before.rotation, momentum) * time;
+    journal.passages[row] = Passage { path: Path::Kicked, rotation: before.rotation, way, turn };
+
+    let (posts, tally) = (&mut journal.posts, &mut journal.tallies[row]);
+    let (mut push, torque) = bodies.forces[row];
+    if constants.inverse_mass == 0.0 {
+        push = DVec3::ZERO;
+    }
+    let pull = weight(constants, journal.gravity);
+    let impulse = pull * time;
+    let moment = before.position.cross(impulse);
+    posts.gravity.add(impulse, moment);
+    posts.integration += pull.dot(way);
+    tally.get(impulse, moment, 0.0);
+    tally.get_artefact(INTEGRATION, pull.dot(way));
+    if push != DVec3::ZERO || torque != DVec3::ZERO {
+        let impulse = push * time;
+        let moment = before.position.cross(impulse) + torque * time;
+        let work = push.dot(way) + torque.dot(turn);
+        posts.external.add(impulse, moment);
+        posts.work_external += work;
+        tally.get(impulse, moment, work);
+    }
+}
+
+/// Books the angular momentum that a body got so that a force of contacts acts at its old place, and what was wanted.
+pub(crate) fn kept_to_plan(bodies: &mut Bodies, row: usize, [turn, wanted]: [DVec3; 2]) {
+    let Some(journal) = bodies.journal.as_deref_mut() else { return };
+    let (state, constants) = (&bodies.states[row], &bodies.constants[row]);
+    let spin = constants.free_spin(state.rotation, state.angular_momentum - 0.5 * turn);
+    let tally: &mut Tally = &mut journal.tallies[row];
+    journal.posts.integration += turn.dot(spin);
+    tally.get_artefact(INTEGRATION, turn.dot(spin));
+    // Axes of infinite inertia do not take theirs.
+    journal.posts.kinematic.angular += turn - wanted;
+    tally.get(DVec3::ZERO, turn - wanted, 0.0);
+}

@@ -1,0 +1,183 @@
+//! What contacts exert is given to the bodies that they hold, and the paths that this gives them.
+//!
+//! Each contact's impulse goes to both of its bodies, equal and opposite, at one place: so linear and angular momentum
+//! are kept to the rounding of double precision, whatever the solver's arms are. A body's own arm ends at its mean place on the
+//! path that it gets. Where a collision takes it off that path, the force goes on acting at the place where it was: see
+//! [`Plan`].
+
+use super::{Rest, Span};
+use crate::bodies::Bodies;
+use crate::flight::{Influence, mean_center};
+use crate::impacts::time_of_impact::RestLaw;
+use crate::ledger::contacts::Exerted;
+use crate::ledger::flights::set_out;
+use crate::math::DVec3;
+use crate::solver::graph::Wrench;
+use crate::step::motion::{Plan, set_pace};
+
+/// What rests on something with friction, goes nowhere and moves no faster than [`CAPTURED`] rest thresholds loses
+/// this share of its speed in a second, fading out towards that speed. Rolling has no friction of its own: without it a ball would roll about
+/// a pile, or rock in a hollow of it, for ever at a speed that gravity and the substep hardly tell from rest.
+const RESISTANCE: f64 = 2.0;
+const CAPTURED: f64 = 8.0;
+
+/// A body rests on something if contacts push it by more than this share of what gravity does. It goes nowhere if its velocity
+/// changes by no more than the second, so that what starts to roll down a slope does so freely; or if for so long (s) it has stayed
+/// where any such start would have taken it away from.
+const SUPPORTED: f64 = 0.5;
+const DRIVEN: f64 = 0.01;
+const LINGERED: f64 = 1.0;
+
+/// A body that contacts hold and impulses move, in one substep.
+pub(super) struct Held {
+    pub row: usize,
+    /// Velocity (m/s) and angular momentum (N·m·s) that gravity and the user's forces give it.
+    pub gain: [DVec3; 2],
+    /// Whether the forces on it persist.
+    pub steady: bool,
+    /// Whether it touches something with friction.
+    pub rough: bool,
+}
+
+/// What a substep does to a body.
+#[derive(Clone, Copy, Default)]
+struct Change {
+    /// Of velocity (m/s) and angular momentum (N·m·s).
+    velocity: DVec3,
+    momentum: DVec3,
+    /// Whether rest capture takes from it, and how much of the velocity that is, m/s.
+    captured: bool,
+    captured_velocity: DVec3,
+}
+
+impl Rest {
+    /// Gives the impulses of the `wrenches` to the bodies `held`.
+    pub(super) fn give(
+        &mut self,
+        bodies: &mut Bodies,
+        wrenches: Vec<Wrench>,
+        held: &[Held],
+        (law, span): (RestLaw, Span),
+    ) {
+        let substep = span.until - span.from;
+        let mut impulses = vec![DVec3::ZERO; bodies.states.len()];
+        for wrench in &wrenches {
+            let [a, b] = wrench.rows;
+            impulses[a] -= wrench.impulse();
+            impulses[b] += wrench.impulse();
+        }
+        let mut changes = Vec::with_capacity(held.len());
+        let mut centers: Vec<DVec3> = bodies.states.iter().map(|state| state.position).collect();
+        for body in held {
+            let change = self.push_center(bodies, body, impulses[body.row], (law, substep));
+            centers[body.row] = mean_place(bodies, body, change.velocity, substep);
+            changes.push(change);
+        }
+        let mut turns = impulses;
+        turns.fill(DVec3::ZERO);
+        for wrench in &wrenches {
+            let push = [wrench.impulse(), wrench.moment()];
+            for (side, row) in wrench.rows.into_iter().enumerate() {
+                turns[row] += wrench.turn(side, push, wrench.rows.map(|row| centers[row]));
+            }
+        }
+        let mut captures = Vec::new();
+        for (body, mut change) in held.iter().zip(changes) {
+            let row = body.row;
+            let rotation = bodies.states[row].rotation;
+            change.momentum = body.gain[1] + bodies.constants[row].turning_part(rotation, turns[row]);
+            if change.captured {
+                let turn = capture_spin(bodies, row, &mut change, law);
+                captures.push((row, [change.captured_velocity * bodies.constants[row].mass(), turn]));
+            }
+            follow(bodies, body, &change, span);
+            set_pace(bodies, row, span.until);
+        }
+        if let Some(journal) = &mut bodies.journal {
+            let bounces = wrenches.iter().map(|wrench| self.bounces[wrench.contact.index()]).collect();
+            journal.exerted = Some(Exerted { wrenches, bounces, centers, captures, time: substep });
+        }
+    }
+
+    /// How the velocity of a body changes that contacts give this impulse.
+    fn push_center(
+        &mut self,
+        bodies: &Bodies,
+        body: &Held,
+        impulse: DVec3,
+        (law, substep): (RestLaw, f64),
+    ) -> Change {
+        let push = impulse * bodies.constants[body.row].inverse_mass;
+        let mut change = Change { velocity: body.gain[0] + push, ..Change::default() };
+        let pull = body.gain[0].length();
+        let stays = self.goes_nowhere(bodies, body.row, (change.velocity.length(), pull, substep));
+        change.captured = body.rough && push.length() > SUPPORTED * pull && stays;
+        if change.captured {
+            let velocity = bodies.states[body.row].velocity + change.velocity;
+            change.captured_velocity = -captured_share(velocity.length(), law) * velocity;
+            change.velocity += change.captured_velocity;
+        }
+        change
+    }
+
+    /// Whether a body whose velocity changes by `change` (m/s) in a substep, in which what pulls it would change it by `pull`,
+    /// goes nowhere.
+    fn goes_nowhere(
+        &mut self,
+        bodies: &Bodies,
+        row: usize,
+        (change, pull, substep): (f64, f64, f64),
+    ) -> bool {
+        let haunt = 0.5 * DRIVEN * pull / substep * LINGERED * LINGERED;
+        let lingers = self.rows.stay(row, bodies.states[row].position, (haunt, substep)) >= LINGERED;
+        lingers || change < DRIVEN * pull
+    }
+}
+
+/// Rest capture: the share of its speed that a body loses in a substep. Vanishes without gravity.
+fn captured_share(speed: f64, law: RestLaw) -> f64 {
+    let slowness = 1.0 - speed / (CAPTURED * law.rest_speed());
+    RESISTANCE * law.substep * slowness.max(0.0)
+}
+
+/// Rest capture of the spin; the angular momentum that this gives, N·m·s.
+fn capture_spin(bodies: &Bodies, row: usize, change: &mut Change, law: RestLaw) -> DVec3 {
+    let (state, constants) = (&bodies.states[row], &bodies.constants[row]);
+    let momentum = state.angular_momentum + change.momentum;
+    let spin = constants.inverse_inertia(state.rotation) * momentum;
+    let turn = -captured_share(spin.length() * bodies.grains[row], law) * momentum;
+    change.momentum += turn;
+    turn
+}
+
+/// Where a body's centre is in the mean while the impulses act that give it `change` (m/s).
+fn mean_place(bodies: &Bodies, body: &Held, change: DVec3, substep: f64) -> DVec3 {
+    let (state, constants) = (&bodies.states[body.row], &bodies.constants[body.row]);
+    if body.steady {
+        let influence = Influence { acceleration: change / substep, torque: DVec3::ZERO };
+        mean_center(state, constants, &influence, substep)
+    } else {
+        state.position
+    }
+}
+
+/// Sets a body on its path for a substep in which it gets this change: a parabola where the forces
+/// persist, so that what slides or rolls gets the distance right; else with the new velocity from the start, as what meets
+/// an obstacle must not go on into it for half a substep.
+fn follow(bodies: &mut Bodies, body: &Held, change: &Change, span: Span) {
+    let (row, substep) = (body.row, span.until - span.from);
+    let before = bodies.states[row];
+    let state = &mut bodies.states[row];
+    if body.steady {
+        let force = (change.velocity - body.gain[0]) / (substep * bodies.constants[row].inverse_mass);
+        bodies.plans[row] = Plan::of(force, state, (span.from, span.until));
+        bodies.influences[row] =
+            Influence { acceleration: change.velocity / substep, torque: change.momentum / substep };
+    } else {
+        state.velocity += change.velocity;
+        state.angular_momentum += change.momentum;
+        bodies.plans[row] = None;
+        bodies.influences[row] = Influence::default();
+    }
+    set_out(bodies, row, &before, (substep, body.steady));
+}

@@ -1,0 +1,82 @@
+//! Overlaps are pushed out at the end of a step; velocities stay.
+
+use super::Rest;
+use crate::bodies::Bodies;
+use crate::impacts::time_of_impact::RestLaw;
+use crate::ledger::contacts::{pushed_out, shifted, stocks};
+use crate::math::{DVec3, rotation_from_vector};
+use crate::solver::graph::Wrench;
+use crate::solver::lanes::{Row, WRITABLE};
+
+/// Share of an overlap that is pushed out at the end of a step.
+const PUSH_OUT: f32 = 0.5;
+
+impl Rest {
+    /// Pushes overlaps out. What a contact does to one of two bodies that move, it does to the other one in the opposite direction:
+    /// their common centre of mass stays, and so does their angular momentum, as [`keep_turning`] sees to.
+    pub fn push_out(&mut self, bodies: &mut Bodies, law: RestLaw) {
+        let held = self.rows.held().to_vec();
+        for &row in &held {
+            self.rows.read_drift(bodies, row, 1.0);
+            let moves = bodies.constants[row].is_movable() && !bodies.is_asleep(row);
+            let inverse_mass = if moves { bodies.constants[row].inverse_mass as f32 } else { 0.0 };
+            let mut still = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, inverse_mass, 0.0];
+            still[WRITABLE] = f32::from(moves);
+            self.rows.displacements[row] = Row(still);
+        }
+        self.graph.measure(&self.rows.drifts);
+        let allowed = law.overlap_left() as f32;
+        let wrenches = self.graph.push_out(&mut self.rows.displacements, PUSH_OUT, allowed);
+        if wrenches.is_empty() {
+            return;
+        }
+        let before = stocks(bodies, &held);
+        let mut moves = vec![DVec3::ZERO; bodies.states.len()];
+        for wrench in &wrenches {
+            let [push, _] = wrench.normal;
+            let inverse_masses = wrench.rows.map(|row| self.inverse_mass(bodies, row));
+            let [inverse_a, inverse_b] = inverse_masses;
+            moves[wrench.rows[0]] -= push * inverse_a;
+            moves[wrench.rows[1]] += push * inverse_b;
+            let refused = if inverse_a > 0.0 && inverse_b > 0.0 {
+                keep_turning(bodies, wrench, inverse_masses)
+            } else {
+                DVec3::ZERO
+            };
+            shifted(bodies, wrench, inverse_masses, refused);
+        }
+        for &row in &held {
+            let angular = self.rows.displacements[row].0;
+            let angular = DVec3::new(angular[3].into(), angular[4].into(), angular[5].into());
+            if moves[row] != DVec3::ZERO || angular != DVec3::ZERO {
+                let state = &mut bodies.states[row];
+                state.position += moves[row];
+                state.rotation = (rotation_from_vector(angular) * state.rotation).normalize();
+                bodies.ways[row].0 += moves[row].length();
+                bodies.ways[row].1 += angular.length();
+            }
+        }
+        pushed_out(bodies, &held, &before);
+    }
+
+    /// Of a body as far as displacements move it, 1/kg.
+    fn inverse_mass(&self, bodies: &Bodies, row: usize) -> f64 {
+        let moves = self.rows.displacements[row].0[WRITABLE] != 0.0;
+        if moves { bodies.constants[row].inverse_mass } else { 0.0 }
+    }
+}
+
+/// Two bodies that pass each other have their lines of motion moved apart, which changes the angular momentum that these stand for:
+/// both spins get it back, the heavier one's more. Returns what axes of infinite inertia refuse.
+fn keep_turning(bodies: &mut Bodies, wrench: &Wrench, [inverse_a, inverse_b]: [f64; 2]) -> DVec3 {
+    let [a, b] = wrench.rows;
+    let lost = (bodies.states[b].velocity - bodies.states[a].velocity).cross(wrench.normal[0]);
+    let share = inverse_a / (inverse_a + inverse_b);
+    let mut refused = DVec3::ZERO;
+    for (row, part) in [(a, 1.0 - share), (b, share)] {
+        let turn = bodies.constants[row].turning_part(bodies.states[row].rotation, lost * part);
+        bodies.states[row].angular_momentum += turn;
+        refused += lost * part - turn;
+    }
+    refused
+}
