@@ -57,10 +57,20 @@ pub struct Books {
 }
 
 impl Books {
-    /// What no cause explains.
+    /// What no cause explains. What cannot be told from the rounding of the sums that it is the difference of is 0:
+    /// [`Books::PRECISION`] of what the single bodies have.
     pub fn residual(&self) -> Residual {
-        self.end.since(&self.start) - self.posts.entered()
+        let Residual { linear, angular, energy } = self.end.since(&self.start) - self.posts.entered();
+        let told = |kind: usize, value: f64| {
+            if value.abs() <= Self::PRECISION * self.gross[kind] { 0.0 } else { value }
+        };
+        let told_vector =
+            |kind: usize, v: DVec3| DVec3::from_array(v.to_array().map(|value| told(kind, value)));
+        Residual { linear: told_vector(0, linear), angular: told_vector(1, angular), energy: told(2, energy) }
     }
+
+    /// Relative rounding of sums over all bodies in double precision.
+    pub const PRECISION: f64 = 1e-14;
 
     /// Sums of the absolute values of all posts, step by step: linear momentum (N·s), angular momentum (N·m·s), energy (J).
     pub fn throughput(&self) -> [f64; 3] {
