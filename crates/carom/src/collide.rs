@@ -34,6 +34,7 @@ mod round_side;
 mod segment;
 
 pub use manifold::{ContactPoint, Manifold};
+pub(crate) use parry::{Wanted, lies_beyond_a_side};
 
 use crate::math::{DVec3, Pose};
 use crate::shape::Shape;

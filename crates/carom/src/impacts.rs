@@ -2,5 +2,6 @@
 
 pub(crate) mod instant;
 pub(crate) mod reflection;
+pub(crate) mod seams;
 pub(crate) mod strike;
 pub(crate) mod time_of_impact;

@@ -22,14 +22,14 @@ pub enum Feature {
     Face(u32),
 }
 
-/// A collider that overlaps a sensor at the end of a step.
+/// A collider that was in a sensor at some time of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Overlap {
     /// The body with the sensor.
     pub sensor: BodyId,
     /// Which of its colliders.
     pub sensor_collider: u32,
-    /// The body that is in it.
+    /// The body that was in it.
     pub visitor: BodyId,
     /// Which of its colliders.
     pub visitor_collider: u32,
@@ -50,7 +50,7 @@ impl StepReport {
         &self.impacts
     }
 
-    /// What overlaps sensors at the end of the step.
+    /// What was in sensors at any time of the step, however fast it passed, in order of its fields.
     pub fn overlaps(&self) -> &[Overlap] {
         &self.overlaps
     }

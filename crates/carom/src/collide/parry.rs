@@ -4,15 +4,17 @@
 //! A convex shape is a *core* and a radius around it (`convex.rs`). parry, in double precision, finds the direction of
 //! least gap between two cores: GJK where they are apart, EPA where they overlap (`axis.rs`). The gap along that
 //! direction is then taken from the cores' support points, so it never exceeds the true distance, whatever parry's
-//! tolerance. Contact points come from clipping the two flat sides that face each other (`clip.rs`). A mesh or a height
-//! field is a set of triangles (`triangles.rs`), each a core of its own (`surface.rs`). A plane needs nothing but support
-//! points.
+//! tolerance. Contact points come from clipping the two flat sides that face each other (`clip.rs`), or it is one point where
+//! the two come closest (`witness.rs`). A mesh or a height field is a set of triangles (`triangles.rs`), each a core of its own
+//! (`surface.rs`). A plane needs nothing but support points.
 
 mod axis;
 mod clip;
 mod convex;
+mod sides;
 mod surface;
 mod triangles;
+mod witness;
 
 use crate::collide::{ContactPoint, Manifold};
 use crate::math::{DVec3, Pose};
@@ -20,6 +22,7 @@ use crate::report::Feature;
 use crate::shape::Shape;
 use clip::Candidates;
 use convex::Convex;
+pub(crate) use sides::{Wanted, lies_beyond_a_side};
 use triangles::{Triangles, triangles_of};
 
 /// A shape as this seam sees it.
@@ -144,12 +147,17 @@ fn convex_manifold(
     let size = convex_a.core.reach().min(convex_b.core.reach()).max(radii);
     // A triangle seen edge-on does not tell on which side of it the other shape is, and what the surface allows may then lead all
     // through that shape. Such a way is none; another triangle has the contact.
-    if corrected && candidates.least_separation() < least.gap - radii - 0.1 * size {
+    // Nor is one that leads sideways over a border: the normal is then no triangle's own.
+    let is_own = convex_a.core.flat_directions().into_iter().any(|own| own.dot(normal) > 1.0 - 1e-9);
+    let detour = if is_own { 0.1 } else { 1e-3 };
+    if corrected && candidates.least_separation() < least.gap - radii - detour * size {
         return None;
     }
     if !corrected && candidates.least_separation() > least.gap - radii + 1e-6 * size {
-        candidates.push(clip::witness(convex_a, convex_b, &inner, &least));
+        least = axis::on_crest(&convex_a.core, &convex_b.core, &inner, least);
+        candidates.push(witness::witness(convex_a, convex_b, &inner, &least));
     }
+    let normal = least.normal;
     let outer_normal = a.1.rotation * normal;
     for known in surface.map_or(&[][..], |surface| surface.known) {
         if known.normal.dot(outer_normal) > 0.9999 {

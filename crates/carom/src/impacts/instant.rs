@@ -193,7 +193,7 @@ impl<'a> Instant<'a> {
             return;
         }
         let mut manifolds = Vec::new();
-        approach.manifolds(self.time, margin, &mut manifolds);
+        approach.manifolds(self.pairs, self.time, margin, &mut manifolds);
         let left = if pair.rests { self.rest.left_speed(self.bodies, pair, self.law) } else { 0.0 };
         let rest_speeds: Vec<f64> =
             manifolds.iter().map(|manifold| approach.rest_speed(manifold.normal).max(left)).collect();

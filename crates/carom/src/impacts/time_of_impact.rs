@@ -8,11 +8,13 @@ use crate::bodies::{Bodies, ColliderRow, WORLD_ROW};
 use crate::collide::{self, ContactPoint, Manifold};
 use crate::fault;
 use crate::flight::fly_center;
+use crate::impacts::seams::leave_out_idle;
 use crate::impulse::Velocity;
 use crate::math::{DVec3, Pose};
 use crate::report::Feature;
 use crate::shape::Shape;
 use crate::step::motion::{free_influence, state_at};
+use crate::step::pairs::Pairs;
 
 /// What decides whether a touch is an impact or a contact.
 #[derive(Clone, Copy, Debug)]
@@ -49,12 +51,13 @@ impl RestLaw {
 
 /// Two colliders during a step.
 pub(crate) struct Approach<'a> {
-    bodies: &'a Bodies,
-    a: &'a ColliderRow,
-    b: &'a ColliderRow,
-    law: RestLaw,
+    pub(super) bodies: &'a Bodies,
+    pub(super) keys: (u32, u32),
+    pub(super) a: &'a ColliderRow,
+    pub(super) b: &'a ColliderRow,
+    pub(super) law: RestLaw,
     /// All geometry is relative to this point of the world, near both.
-    origin: DVec3,
+    pub(super) origin: DVec3,
     /// Separation up to which the surfaces count as touching, m.
     tolerance: f64,
     /// Speed (m/s) below which closing is rounding.
@@ -81,11 +84,8 @@ const PARRY_ACCURACY: f64 = 1e-6;
 
 impl<'a> Approach<'a> {
     /// The pair of two colliders, by their keys.
-    pub fn of(bodies: &'a Bodies, (a, b): (u32, u32), law: RestLaw) -> Option<Self> {
-        Some(Self::new(bodies, bodies.collider(a)?, bodies.collider(b)?, law))
-    }
-
-    pub fn new(bodies: &'a Bodies, a: &'a ColliderRow, b: &'a ColliderRow, law: RestLaw) -> Self {
+    pub fn of(bodies: &'a Bodies, keys: (u32, u32), law: RestLaw) -> Option<Self> {
+        let (a, b) = (bodies.collider(keys.0)?, bodies.collider(keys.1)?);
         let origin = bodies.center_pose(if a.row == WORLD_ROW { b } else { a }).position;
         let own = |shape: &Shape| {
             matches!(
@@ -103,15 +103,21 @@ impl<'a> Approach<'a> {
             state.velocity.length()
                 + bodies.constants[collider.row].angular_velocity(state).length() * collider.spin_reach
         };
-        Self {
+        Some(Self {
             bodies,
+            keys,
             a,
             b,
             law,
             origin,
             tolerance: accuracy * a.reach.min(b.reach),
             noise: 1e-9 * (speed(a) + speed(b)) + 1e-12,
-        }
+        })
+    }
+
+    /// The two.
+    pub fn colliders(&self) -> [&'a ColliderRow; 2] {
+        [self.a, self.b]
     }
 
     /// Separation up to which the surfaces count as touching, m.
@@ -119,7 +125,8 @@ impl<'a> Approach<'a> {
         self.tolerance
     }
 
-    fn pose_at(&self, collider: &ColliderRow, time: f64) -> Pose {
+    /// Where a collider is at `time`, relative to the origin.
+    pub(super) fn pose_at(&self, collider: &ColliderRow, time: f64) -> Pose {
         let center = if collider.row == WORLD_ROW {
             self.bodies.center_pose(collider)
         } else if collider.spin_reach == 0.0 {
@@ -141,11 +148,18 @@ impl<'a> Approach<'a> {
         collide::separation(&self.a.shape, &pose_a, &self.b.shape, &pose_b)
     }
 
-    /// All places where the surfaces are within `margin` of each other at `time`; positions are in the world.
-    pub fn manifolds(&self, time: f64, margin: f64, out: &mut Vec<Manifold>) {
+    /// All places where the surfaces are within `margin` of each other at `time`, but for those that contacts of other `pairs`
+    /// make idle; positions are in the world.
+    pub fn manifolds(&self, pairs: &Pairs, time: f64, margin: f64, out: &mut Vec<Manifold>) {
+        self.local_manifolds(time, margin, out);
+        leave_out_idle(self, pairs, (time, margin), out);
+        out.iter_mut().for_each(|manifold| manifold.shift(self.origin));
+    }
+
+    /// All places where the surfaces are within `margin` of each other at `time`; positions are relative to the origin.
+    pub(super) fn local_manifolds(&self, time: f64, margin: f64, out: &mut Vec<Manifold>) {
         let (pose_a, pose_b) = (self.pose_at(self.a, time), self.pose_at(self.b, time));
         collide::manifolds((&self.a.shape, &pose_a), (&self.b.shape, &pose_b), margin, out);
-        out.iter_mut().for_each(|manifold| manifold.shift(self.origin));
     }
 
     /// The rest threshold along `normal`, m/s: a body that leaves more slowly is pressed back within one substep,
@@ -162,10 +176,11 @@ impl<'a> Approach<'a> {
 
     /// Whether the two rest against each other at `time`: they are so near, and close or part so slowly, that what presses
     /// them together would let them touch no faster than the rest threshold, or already does. Two that overlap do, however fast
-    /// they part: contacts only push, and would be missed where something else pushes the two deeper.
-    pub fn rests(&self, time: f64) -> bool {
+    /// they part: contacts only push, and would be missed where something else pushes the two deeper. Two that `fly` past each
+    /// other do not, however near they come.
+    pub fn rests(&self, pairs: &Pairs, time: f64, fly: bool) -> bool {
         let mut manifolds = Vec::new();
-        self.manifolds(time, self.law.contact_margin(), &mut manifolds);
+        self.manifolds(pairs, time, self.law.contact_margin(), &mut manifolds);
         let motions = if manifolds.is_empty() { return false } else { self.motions(time) };
         let mut is_near = false;
         for manifold in &manifolds {
@@ -178,8 +193,10 @@ impl<'a> Approach<'a> {
                 if closing > rest_speed || (gap > self.tolerance && speed_at_touch > rest_speed) {
                     return false;
                 }
+                let passes = fly && gap > self.tolerance && closing.max(rest_speed) <= self.noise;
                 is_near |= contact.separation < -self.law.overlap_left()
-                    || (closing >= -rest_speed
+                    || (!passes
+                        && closing >= -rest_speed
                         && !(closing <= self.noise && self.parts(contact, manifold.normal)));
             }
         }
@@ -216,34 +233,40 @@ impl<'a> Approach<'a> {
 
     /// The touch that closes fastest at `time`, if any closes faster than rounding (or, for a pair that `rests`, than the
     /// rest threshold and its drift).
-    fn touch(&self, time: f64, rests: bool) -> Option<Touch> {
-        self.fastest_touch(time, rests, 1.0)
+    fn touch(&self, pairs: &Pairs, time: f64, rests: bool) -> Option<Touch> {
+        self.fastest_touch(pairs, (time, rests), 1.0)
     }
 
     /// The same at an instant that [`Self::next_touch`] has found, where the closing speed may just be at its limit.
-    pub fn confirmed_touch(&self, time: f64, rests: bool) -> Option<Touch> {
-        self.fastest_touch(time, rests, 0.5)
+    pub fn confirmed_touch(&self, pairs: &Pairs, time: f64, rests: bool) -> Option<Touch> {
+        self.fastest_touch(pairs, (time, rests), 0.5)
     }
 
-    fn fastest_touch(&self, time: f64, rests: bool, share_of_limit: f64) -> Option<Touch> {
+    fn fastest_touch(&self, pairs: &Pairs, (time, rests): (f64, bool), share_of_limit: f64) -> Option<Touch> {
         let mut manifolds = Vec::new();
-        self.manifolds(time, self.tolerance, &mut manifolds);
+        self.local_manifolds(time, self.tolerance, &mut manifolds);
         let motions = if manifolds.is_empty() { return None } else { self.motions(time) };
-        let mut fastest: Option<Touch> = None;
-        for manifold in &manifolds {
-            let rest_speed = self.rest_speed(manifold.normal);
-            let limit =
-                share_of_limit * if rests { rest_speed.max(self.law.drift_speed()) } else { self.noise };
-            for contact in manifold.points() {
-                let point = contact.point;
-                let closing_speed = normal_velocity(&motions, point, manifold.normal);
-                if closing_speed < fastest.map_or(-limit, |touch| touch.closing_speed) {
-                    let normal = manifold.normal;
-                    fastest = Some(Touch { normal, contact: *contact, closing_speed, rest_speed });
+        let fastest = |manifolds: &[Manifold]| {
+            let mut fastest: Option<Touch> = None;
+            for manifold in manifolds {
+                let rest_speed = self.rest_speed(manifold.normal);
+                let limit =
+                    share_of_limit * if rests { rest_speed.max(self.law.drift_speed()) } else { self.noise };
+                for contact in manifold.points() {
+                    let contact = ContactPoint { point: contact.point + self.origin, ..*contact };
+                    let closing_speed = normal_velocity(&motions, contact.point, manifold.normal);
+                    if closing_speed < fastest.map_or(-limit, |touch| touch.closing_speed) {
+                        let normal = manifold.normal;
+                        fastest = Some(Touch { normal, contact, closing_speed, rest_speed });
+                    }
                 }
             }
-        }
-        fastest
+            fastest
+        };
+        // Mostly nothing closes, and nobody needs to know what is idle.
+        fastest(&manifolds)?;
+        leave_out_idle(self, pairs, (time, self.tolerance), &mut manifolds);
+        fastest(&manifolds)
     }
 
     /// A bound on how fast the surfaces approach between `from` and `until`, m/s.
@@ -275,7 +298,7 @@ impl<'a> Approach<'a> {
 
     /// The first instant from `from` until `until` at which the two touch and close; for a pair that `rests`, close
     /// faster than the rest threshold.
-    pub fn next_touch(&self, from: f64, until: f64, rests: bool) -> Option<f64> {
+    pub fn next_touch(&self, pairs: &Pairs, from: f64, until: f64, rests: bool) -> Option<f64> {
         if fault::lost_collision((self.a.slot, self.b.slot)) {
             return None;
         }
@@ -286,9 +309,9 @@ impl<'a> Approach<'a> {
         loop {
             let (time, separation) = now;
             let touching = separation <= self.tolerance;
-            if touching && self.touch(time, rests).is_some() {
+            if touching && self.touch(pairs, time, rests).is_some() {
                 return Some(match before {
-                    Some((earlier, _)) => self.first_closing((earlier, time), limit, rests),
+                    Some((earlier, _)) => self.first_closing(pairs, (earlier, time), limit, rests),
                     None => time,
                 });
             }
@@ -305,7 +328,33 @@ impl<'a> Approach<'a> {
                 before.and_then(|before| self.dip([before, now, next], limit))
             };
             if let Some(instant) = crossing
-                && self.touch(instant, rests).is_some()
+                && self.touch(pairs, instant, rests).is_some()
+            {
+                return Some(instant);
+            }
+            before = Some(now);
+            now = next;
+        }
+    }
+
+    /// The first instant from `from` until `until` at which the two touch or overlap.
+    pub fn first_overlap(&self, from: f64, until: f64) -> Option<f64> {
+        let limit = self.speed_limit(from, until);
+        let least = BITE * self.thinner() / limit;
+        let mut now = (from, self.separation(from));
+        let mut before: Option<(f64, f64)> = None;
+        loop {
+            let (time, separation) = now;
+            if separation <= 0.0 {
+                return Some(before.map_or(time, |earlier| self.root(earlier, now)));
+            }
+            if time >= until || separation - limit * (until - time) > 0.0 {
+                return None;
+            }
+            let next_time = (time + least.max(separation / limit)).min(until);
+            let next = (next_time, self.separation(next_time));
+            if next.1 > 0.0
+                && let Some(instant) = before.and_then(|before| self.dip([before, now, next], limit))
             {
                 return Some(instant);
             }
@@ -327,7 +376,8 @@ impl<'a> Approach<'a> {
     ///
     /// False position with the Illinois rule (Dowell and Jarratt 1971), a bisection every fourth time.
     fn root(&self, apart: (f64, f64), over: (f64, f64)) -> f64 {
-        let ((mut low, mut high_value), (mut high, mut low_value)) = ((apart.0, over.1), (over.0, apart.1));
+        let (mut low, mut low_value) = apart;
+        let (mut high, mut high_value) = over;
         for iteration in 0..80 {
             if high - low <= f64::EPSILON * high {
                 break;
@@ -372,13 +422,19 @@ impl<'a> Approach<'a> {
 
     /// The first instant after `open`, where nothing closes, at which something does, as at `closing`; as exact as
     /// separations are.
-    fn first_closing(&self, (mut open, mut closing): (f64, f64), limit: f64, rests: bool) -> f64 {
+    fn first_closing(
+        &self,
+        pairs: &Pairs,
+        (mut open, mut closing): (f64, f64),
+        limit: f64,
+        rests: bool,
+    ) -> f64 {
         while (closing - open) * limit > self.tolerance {
             let middle = 0.5 * (open + closing);
             if middle <= open || middle >= closing {
                 break;
             }
-            if self.touch(middle, rests).is_some() { closing = middle } else { open = middle }
+            if self.touch(pairs, middle, rests).is_some() { closing = middle } else { open = middle }
         }
         closing
     }

@@ -115,7 +115,7 @@ impl<'a> Events<'a> {
         for index in 0..self.pairs.len() {
             let pair = &self.pairs[index];
             let is_quiet = pair.rests && self.rest.is_closed(pair);
-            if pair.now.asked_until < span.until && !pair.sensor && !is_quiet {
+            if pair.now.asked_until < span.until && !pair.now.is_sensed && !is_quiet {
                 self.ask(index, span);
             }
         }
@@ -149,7 +149,7 @@ impl<'a> Events<'a> {
             if !self.rest.is_driven(self.bodies, pair, self.law, span) {
                 return;
             }
-            approach.next_touch(span.from, until, true)
+            approach.next_touch(self.pairs, span.from, until, true)
         } else {
             if pair.least_separation(self.bodies, until) > approach.tolerance() {
                 return;
@@ -160,7 +160,11 @@ impl<'a> Events<'a> {
             if pair.least_separation(self.bodies, until) > approach.tolerance() {
                 return;
             }
-            approach.next_touch(span.from, until, false)
+            if self.pairs[index].sensor {
+                approach.first_overlap(span.from, until)
+            } else {
+                approach.next_touch(self.pairs, span.from, until, false)
+            }
         };
         if let Some(time) = instant {
             let pair = &self.pairs[index];
@@ -172,6 +176,10 @@ impl<'a> Events<'a> {
     fn touch(&mut self, index: usize, span: Span) {
         let (colliders, rows) = (self.pairs[index].colliders, self.pairs[index].rows);
         let time = span.from;
+        if self.pairs[index].sensor {
+            self.pairs[index].now.is_sensed = true;
+            return;
+        }
         for row in rows {
             rouse(self.bodies, row, self.law, time);
             advance(self.bodies, row, time);
@@ -179,7 +187,7 @@ impl<'a> Events<'a> {
         }
         let rests = self.pairs[index].rests;
         let Some(approach) = Approach::of(self.bodies, colliders, self.law) else { return };
-        let Some(touch) = approach.confirmed_touch(time, rests) else {
+        let Some(touch) = approach.confirmed_touch(self.pairs, time, rests) else {
             // It vanished under a closer look: look again a moment later, the next time twice that.
             let now = &mut self.pairs[index].now;
             now.patience *= 2.0;
@@ -244,7 +252,7 @@ impl<'a> Events<'a> {
         self.claim_anew(row, span.from);
         for number in 0..self.pairs.count_of_row(row) {
             let index = self.pairs.of_row(row, number);
-            if !self.pairs[index].sensor {
+            if !self.pairs[index].now.is_sensed {
                 self.ask(index, span);
             }
         }

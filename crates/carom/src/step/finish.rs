@@ -1,7 +1,6 @@
 //! The end of a step: tidy up, and tell.
 
 use crate::bodies::{Bodies, WORLD_ROW};
-use crate::collide;
 use crate::impacts::time_of_impact::RestLaw;
 use crate::report::Overlap;
 use crate::world::World;
@@ -22,31 +21,22 @@ pub(crate) fn quarantine(world: &mut World) {
     }
 }
 
-/// Finds what overlaps a sensor.
+/// Tells what has been in a sensor.
 pub(crate) fn sense(world: &mut World) {
-    for pair in world.pairs.iter().filter(|pair| pair.sensor) {
-        let (a, b) = pair.colliders;
-        let (Some(a), Some(b)) = (world.bodies.collider(a), world.bodies.collider(b)) else { continue };
-        let origin = world.bodies.center_pose(a).position;
-        let pose = |collider| {
-            let mut pose = world.bodies.center_pose(collider);
-            pose.position -= origin;
-            pose.then_local(&collider.local)
-        };
-        if collide::separation(&a.shape, &pose(a), &b.shape, &pose(b)) > 0.0 {
-            continue;
-        }
+    let bodies = &world.bodies;
+    let sensed = world.pairs.iter().filter(|pair| pair.now.is_sensed).filter_map(|pair| {
+        let (a, b) = (bodies.collider(pair.colliders.0)?, bodies.collider(pair.colliders.1)?);
         let (sensor, visitor) = if a.sensor { (a, b) } else { (b, a) };
-        let ids = (world.bodies.id_of(sensor.slot), world.bodies.id_of(visitor.slot));
-        if let (Some(sensor_body), Some(visitor_body)) = ids {
-            world.report.overlaps.push(Overlap {
-                sensor: sensor_body,
-                sensor_collider: sensor.index,
-                visitor: visitor_body,
-                visitor_collider: visitor.index,
-            });
-        }
-    }
+        Some(Overlap {
+            sensor: bodies.id_of(sensor.slot)?,
+            sensor_collider: sensor.index,
+            visitor: bodies.id_of(visitor.slot)?,
+            visitor_collider: visitor.index,
+        })
+    });
+    world.report.overlaps.extend(sensed);
+    let order = |it: &Overlap| (it.sensor, it.sensor_collider, it.visitor, it.visitor_collider);
+    world.report.overlaps.sort_unstable_by_key(order);
 }
 
 /// How many pairs of bodies touch.

@@ -62,12 +62,15 @@ pub(crate) struct Present {
     pub hits: u32,
     /// The fastest of them, m/s.
     pub fastest: f64,
+    /// Whether it is a sensor and what has been in it.
+    pub is_sensed: bool,
     /// How long to look away after a touch that vanished under a closer look, as a share of the step.
     pub patience: f64,
 }
 
 impl Present {
-    const NOTHING: Present = Present { stamp: 0, asked_until: -1.0, hits: 0, fastest: 0.0, patience: 1e-9 };
+    const NOTHING: Present =
+        Present { stamp: 0, asked_until: -1.0, hits: 0, fastest: 0.0, is_sensed: false, patience: 1e-9 };
 }
 
 impl Pair {

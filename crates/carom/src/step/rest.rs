@@ -126,7 +126,8 @@ impl Rest {
             }
             let Some(approach) = Approach::of(bodies, pair.colliders, law) else { continue };
             let separation = approach.separation(span.from);
-            let rests = separation <= margin && approach.rests(span.from);
+            let fly = !pairs[index].rows.into_iter().any(|row| self.rows.is_held(row));
+            let rests = separation <= margin && approach.rests(pairs, span.from, fly);
             pairs[index].measured(bodies, separation, span.from);
             if rests {
                 self.take(bodies, pairs, index, (law, span));
@@ -145,7 +146,7 @@ impl Rest {
             self.rows.read_drift(bodies, row, 1.0);
         }
         pairs[index].rests = true;
-        self.renew(bodies, &mut pairs[index], at);
+        self.renew(bodies, pairs, index, at);
         if pairs[index].rests {
             self.resting.push(index);
         }

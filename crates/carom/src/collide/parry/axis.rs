@@ -1,7 +1,7 @@
 //! The direction along which two cores are farthest apart, or least deep in each other.
 
 use super::convex::Core;
-use crate::math::{DVec3, Pose};
+use crate::math::{DVec3, Pose, any_tangent};
 use parry3d_f64::math::{Pose3, Rot3};
 use parry3d_f64::query::details::contact_support_map_support_map_with_params;
 use parry3d_f64::query::gjk::{self, GJKResult, VoronoiSimplex};
@@ -92,6 +92,11 @@ pub(super) fn gap_within(a: &Core, b: &Core, b_in_a: &Pose, limit: f64) -> Optio
         return if apart { None } else { gap_within(a, b, b_in_a, f64::MAX) };
     }
     let mut best = measured(&start, DVec3::ZERO).unwrap_or_else(|| best_guess(a, b, b_in_a, &along));
+    // Where cores hardly touch EPA may take some way out for the shortest; from there the rounds below do not come back.
+    if best.gap < -1e-3 * size {
+        let guess = best_guess(a, b, b_in_a, &along);
+        best = if guess.gap > best.gap { guess } else { best };
+    }
     // No direction has a gap wider than the distance of two points.
     if best.gap >= 1e-3 * size && best.on_a.distance(best.on_b) - best.gap <= 1e-10 * size {
         return Some(best);
@@ -121,17 +126,19 @@ pub(super) fn along(a: &Core, b: &Core, b_in_a: &Pose, normal: DVec3) -> Axis {
 }
 
 /// Turns the axis uphill as long as the gap widens. GJK's simplex degenerates on curved cores and stalls some 10⁻⁴ rad
-/// short; there the gap is smooth, and its gradient is the part of `on_b − on_a` across the normal.
+/// short. Where both sides are round the gap is smooth, and its gradient is the part of `on_b − on_a` across the normal; where a
+/// rim or an end takes part it may have a crest, on which this stalls: see [`on_crest`].
 fn uphill(start: Axis, size: f64, along: &dyn Fn(DVec3) -> Axis) -> Axis {
     const STEPS: usize = 24;
+    let across = |axis: &Axis| (axis.on_b - axis.on_a) - axis.normal * axis.gap;
     let mut best = along(start.normal);
     let mut radius = size;
     for _ in 0..STEPS {
-        let across = (best.on_b - best.on_a) - best.normal * best.gap;
-        if across.length() <= 1e-10 * size {
+        let slope = across(&best);
+        if slope.length() <= 1e-10 * size {
             break;
         }
-        let next = along((best.normal + across / radius).normalize_or(best.normal));
+        let next = along((best.normal + slope / radius).normalize_or(best.normal));
         if next.gap > best.gap {
             best = next;
             radius *= 0.7;
@@ -141,6 +148,47 @@ fn uphill(start: Axis, size: f64, along: &dyn Fn(DVec3) -> Axis) -> Axis {
     }
     // Where nothing was gained the points of GJK are the better ones: these here are corners of their sides.
     if best.gap > start.gap { best } else { start }
+}
+
+/// How far (rad) the best axis may be from where the way uphill ended at a crest.
+const CREST: f64 = 4e-4;
+
+/// The axis of the widest gap near `start`, where curved cores touch at one point: the gap may have a crest there, with a kink
+/// across it. Bisections along the crest, and in each step one across it. The slopes of both sides, so weighted that nothing of
+/// them leads across, give the slope along the crest.
+pub(super) fn on_crest(a: &Core, b: &Core, b_in_a: &Pose, start: Axis) -> Axis {
+    const STEPS: usize = 18;
+    if !a.is_curved() && !b.is_curved() {
+        return start;
+    }
+    let along = |normal: DVec3| along(a, b, b_in_a, normal);
+    let slope_of = |axis: &Axis| (axis.on_b - axis.on_a) - axis.normal * axis.gap;
+    let slope = slope_of(&along(start.normal));
+    let across = slope.normalize_or(any_tangent(start.normal));
+    let onward = start.normal.cross(across);
+    let slope_of = |axis: &Axis| (axis.on_b - axis.on_a) - axis.normal * axis.gap;
+    let wider = |one: Axis, other: Axis| if other.gap > one.gap { other } else { one };
+    // The best place at that angle along the crest, and whether the crest still rises there.
+    let crest_at = |angle: f64| {
+        let at = |beside: f64| along((start.normal + onward * angle + across * beside).normalize());
+        let (mut low, mut high) = ((-CREST, at(-CREST)), (CREST, at(CREST)));
+        for _ in 0..STEPS {
+            let middle = 0.5 * (low.0 + high.0);
+            let found = at(middle);
+            if slope_of(&found).dot(across) > 0.0 { low = (middle, found) } else { high = (middle, found) }
+        }
+        let (left, right) = (slope_of(&low.1), slope_of(&high.1));
+        let rise = left.dot(onward) * -right.dot(across) + right.dot(onward) * left.dot(across);
+        (wider(low.1, high.1), rise > 0.0)
+    };
+    let (mut best, mut low, mut high) = (start, -CREST, CREST);
+    for _ in 0..STEPS {
+        let middle = 0.5 * (low + high);
+        let (found, rises) = crest_at(middle);
+        best = wider(best, found);
+        if rises { low = middle } else { high = middle }
+    }
+    best
 }
 
 /// The best of some likely directions, for when parry finds none.

@@ -1,6 +1,5 @@
 //! Where two sides face each other: one outline cut to the other, and the best four of the points this leaves.
 
-use super::axis::Axis;
 use super::convex::{CORNERS, Convex, Corner};
 use crate::collide::{ContactPoint, Manifold};
 use crate::math::{DVec3, Pose, any_tangent};
@@ -131,36 +130,6 @@ pub(super) fn contacts(a: &Convex, b: &Convex, b_in_a: &Pose, normal: DVec3, out
         } else {
             offer(cut.x, cut.y, (height, cut.height), (cut.other, cut.own));
         }
-    }
-}
-
-/// The point of the axis itself: where GJK or EPA saw the cores closest. In a's frame.
-pub(super) fn witness(a: &Convex, b: &Convex, b_in_a: &Pose, axis: &Axis) -> ContactPoint {
-    let separation = axis.gap - a.radius - b.radius;
-    let size = a.core.reach().max(b.core.reach());
-    let into_b = b_in_a.rotation.conjugate() * -axis.normal;
-    let feature_a = touched(a, axis.normal, 1e-6 * size);
-    let feature_b = touched(b, into_b, 1e-6 * size);
-    // Both points lie on their surfaces up to rounding; the height is taken from the gap, which is exact.
-    let middle = 0.5 * (axis.on_a + axis.on_b);
-    let high_a = a.core.support(axis.normal).dot(axis.normal) + a.radius;
-    let point = middle + axis.normal * (high_a + 0.5 * separation - middle.dot(axis.normal));
-    ContactPoint { point, separation, feature_a, feature_b }
-}
-
-/// What of a shape lies farthest in `direction`.
-fn touched(shape: &Convex, direction: DVec3, tolerance: f64) -> Feature {
-    let highest = shape.core.support(direction).dot(direction);
-    let outline = shape.core.outline(direction);
-    let corners = outline.corners();
-    let touches = |corner: &Corner| highest - corner.point.dot(direction) <= tolerance;
-    match corners.iter().filter(|corner| touches(corner)).count() {
-        1 => corners.iter().find(|corner| touches(corner)).map_or(Feature::Surface, |corner| corner.vertex),
-        2 => (0..corners.len())
-            .find(|&k| touches(&corners[k]) && touches(&corners[(k + 1) % corners.len()]))
-            .map_or(Feature::Surface, |k| corners[k].edge),
-        0 => Feature::Surface,
-        _ => outline.face,
     }
 }
 

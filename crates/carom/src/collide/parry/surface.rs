@@ -10,7 +10,7 @@ use crate::report::Feature;
 use crate::shape::Shape;
 use std::cell::Cell;
 
-fn triangle_core(surface: &dyn Triangles, index: u32) -> Convex<'static> {
+pub(super) fn triangle_core(surface: &dyn Triangles, index: u32) -> Convex<'static> {
     let (corners, vertices) = (surface.corners(index), surface.corner_numbers(index));
     Convex { core: Core::Triangle { corners, index, vertices }, radius: 0.0 }
 }

@@ -10,7 +10,7 @@ use crate::bodies::{Bodies, ColliderRow};
 use crate::impacts::time_of_impact::{Approach, RestLaw};
 use crate::math::{DMat3, DVec3};
 use crate::solver::prepare::{Side, Terms, lane};
-use crate::step::pairs::{Pair, Pairs, Support};
+use crate::step::pairs::{Pairs, Support};
 
 /// Motion of a body, as a share of its smallest collider's reach or in radians, after which its contacts are renewed: at
 /// the start of a step, and within one.
@@ -19,11 +19,16 @@ pub(super) const DRIFT_WITHIN: f64 = 5e-3;
 
 impl Rest {
     /// Looks at a pair closely: new geometry, old impulses. A pair that is out of reach rests no more.
-    pub(super) fn renew(&mut self, bodies: &Bodies, pair: &mut Pair, (law, span): (RestLaw, Span)) {
-        let (Some(a), Some(b)) = (bodies.collider(pair.colliders.0), bodies.collider(pair.colliders.1))
-        else {
-            return;
-        };
+    pub(super) fn renew(
+        &mut self,
+        bodies: &Bodies,
+        pairs: &mut Pairs,
+        index: usize,
+        (law, span): (RestLaw, Span),
+    ) {
+        let pair = &pairs[index];
+        let Some(approach) = Approach::of(bodies, pair.colliders, law) else { return };
+        let [a, b] = approach.colliders();
         let margin = law.contact_margin();
         let grain = a.reach.min(b.reach);
         let way = |side: usize| {
@@ -31,9 +36,9 @@ impl Rest {
             linear + angular * pair.spin_reach[side]
         };
         let ahead = ((way(0) + way(1)) * (law.step - span.from)).min(0.2 * grain);
-        let approach = Approach::new(bodies, a, b, law);
         let mut manifolds = Vec::new();
-        approach.manifolds(span.from, margin + 0.01 * grain + ahead, &mut manifolds);
+        approach.manifolds(pairs, span.from, margin + 0.01 * grain + ahead, &mut manifolds);
+        let pair = &mut pairs[index];
 
         let side = |collider: &ColliderRow, outward: DVec3, point: DVec3| {
             let constants = &bodies.constants[collider.row];
@@ -107,9 +112,10 @@ impl Rest {
             }
         }
         for index in 0..self.resting.len() {
-            let pair = &mut pairs[self.resting[index]];
+            let number = self.resting[index];
+            let pair = &pairs[number];
             if pair.rests && pair.rows.into_iter().any(|row| has_moved[row]) {
-                self.renew(bodies, pair, (law, span));
+                self.renew(bodies, pairs, number, (law, span));
             }
         }
         self.resting.retain(|&index| pairs[index].rests);

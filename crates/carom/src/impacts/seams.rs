@@ -1,0 +1,218 @@
+//! Seams: contacts that another contact makes idle.
+//!
+//! A box that slides over flush tiles overlaps each new one by rounding, first at its side: the shortest way out leads back.
+//! But the box rests on the tile that it comes from, and the plane of that contact has all of the new tile on its far
+//! side as well. So long as the one contact holds, the other has nothing to do:
+//!
+//! > A contact of a shape with `Y` is idle if the plane of its contact with `Z` has `Y` on its far side too, while the plane of
+//! > the contact with `Y` cuts through `Z`.
+//!
+//! The second half keeps both contacts where both are right, as on a ridge, and the idle one never makes the other one idle in
+//! turn. What rises over the plane of `Z`, be it a step or a slope, is struck. Tiles that differ in height by less than the
+//! overlap that contacts leave as it is are flush.
+//!
+//! Where a ramp begins at a seam, a box that comes over the floor meets the ramp's edge, and any normal between those of its end and
+//! of its upper side would do. The end is behind the floor. So a contact is left out as well if another side of `Y` faces more
+//! the way of the contact with `Z`, and the shape is beyond that side: a moment later that side is the shortest way out.
+//!
+//! The shape may be that of a body that slides over others, or the ground under a body of several colliders.
+
+use super::time_of_impact::Approach;
+use crate::bodies::{ColliderRow, WORLD_ROW};
+use crate::collide::{self, ContactPoint, Manifold, Wanted, lies_beyond_a_side};
+use crate::math::{DVec3, Pose};
+use crate::shape::Shape;
+use crate::step::pairs::Pairs;
+use std::cmp::Ordering;
+
+/// Tiles may be so far apart, as a share of the reach of what slides over them.
+const GAP: f64 = 0.01;
+
+/// What tiles differ in height by may be no more than this share of the smaller reach, however much overlap contacts leave.
+const STEP: f64 = 1e-3;
+
+/// What cuts through a plane reaches beyond it by this share of the reach.
+const ROUNDING: f64 = 1e-7;
+
+/// Normals whose cosine is above this are the same, but for rounding and roundness. Such a contact may hold up what the other
+/// does not: it only takes the other's normal, unless it is the same touch again, and then the nearer one counts.
+const ALIKE: f64 = 1.0 - 1e-7;
+
+/// Separations that differ by less than this share of the reach are the same.
+const LEVEL: f64 = 1e-9;
+
+/// A side faces more some way than another if its cosine is greater by this.
+const MORE: f64 = 0.01;
+
+/// Contacts so near each other, as a share of the reach, are at the same place.
+const SAME_PLACE: f64 = 1e-2;
+
+/// A collider that shares one of an approach's two.
+struct Beside {
+    other: u32,
+    /// Whether it is the first of the approach that is shared.
+    shares_first: bool,
+    /// Of their contacts, once somebody has asked.
+    planes: Option<Vec<Plane>>,
+}
+
+/// Where another collider touches what is shared.
+struct Plane {
+    /// From the other to what is shared.
+    normal: DVec3,
+    /// On the other's surface.
+    place: DVec3,
+    /// m
+    separation: f64,
+}
+
+/// Takes out of the manifolds of `approach` at a time, found with a margin (m), those that contacts of other pairs make idle.
+/// All places are relative to the approach's origin.
+pub(super) fn leave_out_idle(
+    approach: &Approach,
+    pairs: &Pairs,
+    (time, margin): (f64, f64),
+    manifolds: &mut Vec<Manifold>,
+) {
+    if manifolds.is_empty() {
+        return;
+    }
+    let mut beside = beside(approach, pairs, (time, margin));
+    let seam = Seam { approach, time, margin };
+    manifolds.retain_mut(|manifold| beside.iter_mut().all(|beside| seam.holds(manifold, beside)));
+}
+
+/// The other colliders near those of the approach that share one with it: each one's neighbours, and the other colliders
+/// of its body that have the same neighbour.
+fn beside(approach: &Approach, pairs: &Pairs, (time, margin): (f64, f64)) -> Vec<Beside> {
+    let (a, b) = approach.keys;
+    let bodies = approach.bodies;
+    let rows = [approach.a.row, approach.b.row];
+    let mut found: Vec<Beside> = Vec::new();
+    for row in rows.into_iter().filter(|&row| row != WORLD_ROW && bodies.constants[row].is_movable()) {
+        for number in 0..pairs.count_of_row(row) {
+            let pair = &pairs[pairs.of_row(row, number)];
+            let (first, second) = pair.colliders;
+            let shares = |key: u32| first == key || second == key;
+            if pair.sensor || shares(a) == shares(b) {
+                continue;
+            }
+            let shared = if shares(a) { a } else { b };
+            let other = if first == shared { second } else { first };
+            let is_near = pair.rests || pair.least_separation(bodies, time) <= margin + approach.flush();
+            if is_near && !found.iter().any(|beside| beside.other == other) {
+                found.push(Beside { other, shares_first: shared == a, planes: None });
+            }
+        }
+    }
+    found
+}
+
+/// A question about manifolds of an approach.
+struct Seam<'a> {
+    approach: &'a Approach<'a>,
+    time: f64,
+    margin: f64,
+}
+
+impl Seam<'_> {
+    /// Whether what is `beside` leaves a manifold to do something; where it does, their normals are made the same if they are
+    /// alike.
+    fn holds(&self, manifold: &mut Manifold, beside: &mut Beside) -> bool {
+        let approach = self.approach;
+        let (a, b) = (approach.a, approach.b);
+        let (shared, own, sign) = if beside.shares_first { (a, b, -1.0) } else { (b, a, 1.0) };
+        let Some(other) = approach.bodies.collider(beside.other) else { return true };
+        let Some(contact) = manifold.points().iter().min_by(nearest) else { return true };
+        let reach = shared.reach.min(own.reach.max(other.reach));
+        let normal = sign * manifold.normal;
+        let place = contact.point - 0.5 * contact.separation * normal;
+        if !self.meets_ball(other, place, GAP * reach + contact.separation.max(0.0)) {
+            return true;
+        }
+        let rises = |collider: &ColliderRow, place: DVec3, normal: DVec3, by: f64| {
+            self.meets_ball(collider, place + (reach + by) * normal, reach)
+        };
+        let is_single = manifold.points().len() == 1;
+        let planes =
+            beside.planes.get_or_insert_with(|| self.planes(beside.other, beside.shares_first)).as_slice();
+        for plane in planes {
+            let depth = (plane.place - place).dot(plane.normal);
+            if depth > approach.flush() - plane.separation.min(0.0)
+                || rises(own, place + depth * plane.normal, plane.normal, approach.flush())
+            {
+                continue;
+            }
+            if normal.dot(plane.normal) <= ALIKE {
+                if rises(other, place, normal, ROUNDING * reach) {
+                    return false;
+                }
+            } else if is_single && place.distance(plane.place) < SAME_PLACE * reach {
+                let nearer = contact.separation - plane.separation;
+                let is_first = (own.slot, own.index) < (other.slot, other.index);
+                let level = LEVEL * reach;
+                if nearer > level || (nearer >= -level && !is_first) {
+                    return false;
+                }
+            } else {
+                manifold.normal = sign * plane.normal;
+                return true;
+            }
+        }
+        !self.has_better_side(own, shared, planes, (place, normal))
+    }
+
+    /// Whether a side of `own` that faces more the way of another collider's contact than `normal` has `shared` beyond it.
+    fn has_better_side(
+        &self,
+        own: &ColliderRow,
+        shared: &ColliderRow,
+        planes: &[Plane],
+        (place, normal): (DVec3, DVec3),
+    ) -> bool {
+        let pose = |collider: &ColliderRow| self.approach.pose_at(collider, self.time);
+        let (own_pose, shared_pose) = (pose(own), pose(shared));
+        planes.iter().any(|plane| {
+            let room = self.approach.flush() - plane.separation.min(0.0);
+            let cosine = normal.dot(plane.normal) + MORE;
+            let wanted = Wanted { place, way: plane.normal, cosine, room };
+            (plane.place - place).dot(plane.normal).abs() <= room
+                && lies_beyond_a_side((&own.shape, &own_pose), (&shared.shape, &shared_pose), wanted)
+        })
+    }
+
+    /// Whether a collider comes into a ball.
+    fn meets_ball(&self, collider: &ColliderRow, center: DVec3, radius: f64) -> bool {
+        let (ball, there) = (Shape::Sphere { radius }, Pose { position: center, ..Pose::IDENTITY });
+        let pose = self.approach.pose_at(collider, self.time);
+        collide::separation(&ball, &there, &collider.shape, &pose) <= 0.0
+    }
+
+    /// The planes of the contacts of another collider with the one that it shares.
+    fn planes(&self, other: u32, shares_first: bool) -> Vec<Plane> {
+        let (a, b) = self.approach.keys;
+        let shared = if shares_first { a } else { b };
+        let between = Approach::of(self.approach.bodies, (other, shared), self.approach.law);
+        let Some(mut between) = between else { return Vec::new() };
+        between.origin = self.approach.origin;
+        let mut manifolds = Vec::new();
+        between.local_manifolds(self.time, self.margin + self.approach.flush(), &mut manifolds);
+        let plane = |manifold: &Manifold| {
+            let contact = manifold.points().iter().min_by(nearest)?;
+            let place = contact.point - 0.5 * contact.separation * manifold.normal;
+            Some(Plane { normal: manifold.normal, place, separation: contact.separation })
+        };
+        manifolds.iter().filter_map(plane).collect()
+    }
+}
+
+fn nearest(one: &&ContactPoint, two: &&ContactPoint) -> Ordering {
+    one.separation.total_cmp(&two.separation)
+}
+
+impl Approach<'_> {
+    /// How far one of two flush tiles may be above the other, m.
+    fn flush(&self) -> f64 {
+        self.law.overlap_left().min(STEP * self.a.reach.min(self.b.reach)) + self.tolerance()
+    }
+}
