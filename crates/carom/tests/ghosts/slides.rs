@@ -9,6 +9,8 @@ struct Slide {
     /// Direction of its velocity, rad from x towards z.
     heading: f64,
     speed: f64,
+    /// m
+    way: f64,
 }
 
 fn unevenly_turned() -> Frame {
@@ -28,7 +30,7 @@ fn without_friction_nothing_changes() {
             let (start, first) = (body.position, body.rotation);
             let before = body.linear_velocity.as_dvec3();
             let id = world.add(body);
-            for number in 1..=(20.0 / slide.speed / STEP) as usize {
+            for number in 1..=(slide.way / slide.speed / STEP) as usize {
                 world.step(STEP);
                 let state = &world[id];
                 let off = state.position() - (start + before * (number as f64 * STEP));
@@ -53,9 +55,9 @@ fn without_friction_nothing_changes() {
 
 fn slides() -> [Slide; 3] {
     [
-        Slide { frame: Frame::level(), yaw: 0.0, heading: 0.0, speed: 5.0 },
-        Slide { frame: Frame::level(), yaw: 0.3, heading: 0.3, speed: 3.0 },
-        Slide { frame: unevenly_turned(), yaw: 0.0, heading: 0.2, speed: 4.0 },
+        Slide { frame: Frame::level(), yaw: 0.0, heading: 0.0, speed: 5.0, way: 20.0 },
+        Slide { frame: Frame::level(), yaw: 0.3, heading: 0.3, speed: 3.0, way: 7.0 },
+        Slide { frame: unevenly_turned(), yaw: 0.0, heading: 0.2, speed: 4.0, way: 10.0 },
     ]
 }
 
