@@ -12,7 +12,7 @@ fn dropped(floor: Floor, mover: &Mover, place: [f64; 2], restitution: f64) -> (D
     let first = body.rotation;
     let id = world.add(body);
     let mut hits = 0;
-    for _ in 0..120 {
+    for _ in 0..80 {
         hits += world.step(STEP).impacts().iter().filter(|hit| hit.round == 0).count().min(1);
     }
     (world[id].position(), velocity(&world[id]), turned(&world[id], first), hits)
