@@ -15,7 +15,7 @@ pub(crate) struct Rows {
     pub drifts: Vec<Row>,
     /// Displacements that push overlaps out, laid out like velocities (m, rad).
     pub displacements: Vec<Row>,
-    anchors: Vec<Pose>,
+    pub anchors: Vec<Pose>,
     /// Where the body has not gone far from, m, and for how long, s.
     haunts: Vec<(DVec3, f64)>,
     /// How many contacts the body has.

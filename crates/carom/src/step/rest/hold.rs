@@ -11,6 +11,7 @@ use crate::math::DVec3;
 use crate::solver::direct::Mobility;
 use crate::solver::graph::Effort;
 use crate::solver::lanes::Row;
+use crate::solver::rows::Rows;
 use crate::step::motion::{advance, free_influence, set_pace};
 use crate::step::pairs::Pairs;
 
@@ -123,11 +124,13 @@ impl Rest {
             in_motion: IN_MOTION,
             budget: BUDGET,
         };
-        self.graph.solve(&mut self.rows.velocities, effort, |row| {
-            let (state, constants) = (&bodies.states[row as usize], &bodies.constants[row as usize]);
+        // All solvers see the inertia that the contacts were renewed with.
+        let Rows { velocities, anchors, .. } = &mut self.rows;
+        self.graph.solve(velocities, effort, |row| {
+            let constants = &bodies.constants[row as usize];
             (constants.is_movable() && !bodies.is_asleep(row as usize)).then(|| Mobility {
                 inverse_mass: constants.inverse_mass,
-                inverse_inertia: constants.inverse_inertia(state.rotation),
+                inverse_inertia: constants.inverse_inertia(anchors[row as usize].rotation),
             })
         });
     }
