@@ -8,7 +8,6 @@ use super::stock::Stock;
 use crate::bodies::{Bodies, WORLD_ROW};
 use crate::math::DVec3;
 use crate::solver::graph::Wrench;
-use crate::world::Momentum;
 
 /// What contacts exert during a substep.
 #[derive(Clone, Debug)]
@@ -178,25 +177,23 @@ pub(crate) fn stocks(bodies: &Bodies, rows: &[usize]) -> Vec<Stock> {
     rows.iter().map(|&row| Stock::of_row(bodies, row, journal.gravity)).collect()
 }
 
-/// Books what one contact does to angular momentum by pushing an overlap out (displacement times mass, kg·m). Two bodies that move
-/// get it back, but for what axes of infinite inertia have `refused`.
-pub(crate) fn shifted(bodies: &mut Bodies, wrench: &Wrench, inverse_masses: [f64; 2], refused: DVec3) {
+/// Books what one contact does to angular momentum by pushing an overlap out (displacement times mass, kg·m): bodies that move have
+/// their lines of motion moved, by what does not move, or by each other's overlap, as if from outside.
+pub(crate) fn shifted(bodies: &mut Bodies, wrench: &Wrench, inverse_masses: [f64; 2]) {
     let Some(journal) = bodies.journal.as_deref_mut() else { return };
-    let shift = |side: usize| {
-        let push = if side == 0 { -wrench.normal[0] } else { wrench.normal[0] };
-        push.cross(bodies.states[wrench.rows[side]].velocity)
+    let posts = &mut journal.posts;
+    let shift = |side: usize| wrench.normal[0].cross(bodies.states[wrench.rows[side]].velocity);
+    let mut account = |other: usize, shift: DVec3| {
+        let row = wrench.rows[other];
+        let is_fixed = row == WORLD_ROW || bodies.constants[row].inverse_mass > 0.0;
+        let account = if is_fixed { &mut posts.fixed } else { &mut posts.kinematic };
+        account.angular += shift;
     };
     match inverse_masses.map(|inverse_mass| inverse_mass > 0.0) {
-        [true, true] => journal.posts.kinematic.angular -= refused,
+        [true, true] => posts.external.angular += shift(1) - shift(0),
+        [true, false] => account(1, -shift(0)),
+        [false, true] => account(0, shift(1)),
         [false, false] => (),
-        [first, _] => {
-            let (moved, other) = if first { (0, 1) } else { (1, 0) };
-            let row = wrench.rows[other];
-            let is_fixed = row == WORLD_ROW || bodies.constants[row].inverse_mass > 0.0;
-            let account: &mut Momentum =
-                if is_fixed { &mut journal.posts.fixed } else { &mut journal.posts.kinematic };
-            account.angular += shift(moved);
-        }
     }
 }
 

@@ -12,7 +12,9 @@ pub struct Posts {
     /// From gravity.
     pub gravity: Momentum,
     /// From the user's forces, and from what was done to bodies between steps: velocities set, bodies moved, added and
-    /// removed. Damping, a drag of the surroundings, takes its momentum to here. A body that is lost (no longer finite) leaves through here.
+    /// removed. Damping, a drag of the surroundings, takes its momentum to here. Overlaps of two bodies that move are pushed out
+    /// as if from outside: that changes no linear momentum, and the angular momentum by what moves times its displacement. A body
+    /// that is lost (no longer finite) leaves through here.
     pub external: Momentum,
     /// From what is fixed (`static` in files), and from bodies asleep, which stand like it. What rest capture and sleep take
     /// goes to here: through its supports into the ground.

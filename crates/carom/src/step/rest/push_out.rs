@@ -13,7 +13,8 @@ const PUSH_OUT: f32 = 0.5;
 
 impl Rest {
     /// Pushes overlaps out. What a contact does to one of two bodies that move, it does to the other one in the opposite direction:
-    /// their common centre of mass stays, and so does their angular momentum, as [`keep_turning`] sees to.
+    /// their common centre of mass stays. Bodies that pass each other get their lines of motion moved apart, which changes their angular
+    /// momentum about any point; to give that to their spins would be a blow that nobody has struck.
     pub fn push_out(&mut self, bodies: &mut Bodies, law: RestLaw) {
         let held = self.rows.held().to_vec();
         for &row in &held {
@@ -38,12 +39,7 @@ impl Rest {
             let [inverse_a, inverse_b] = inverse_masses;
             moves[wrench.rows[0]] -= push * inverse_a;
             moves[wrench.rows[1]] += push * inverse_b;
-            let refused = if inverse_a > 0.0 && inverse_b > 0.0 {
-                keep_turning(bodies, wrench, inverse_masses)
-            } else {
-                DVec3::ZERO
-            };
-            shifted(bodies, wrench, inverse_masses, refused);
+            shifted(bodies, wrench, inverse_masses);
         }
         for &row in &held {
             let angular = self.rows.displacements[row].0;
@@ -64,19 +60,4 @@ impl Rest {
         let moves = self.rows.displacements[row].0[WRITABLE] != 0.0;
         if moves { bodies.constants[row].inverse_mass } else { 0.0 }
     }
-}
-
-/// Two bodies that pass each other have their lines of motion moved apart, which changes the angular momentum that these stand for:
-/// both spins get it back, the heavier one's more. Returns what axes of infinite inertia refuse.
-fn keep_turning(bodies: &mut Bodies, wrench: &Wrench, [inverse_a, inverse_b]: [f64; 2]) -> DVec3 {
-    let [a, b] = wrench.rows;
-    let lost = (bodies.states[b].velocity - bodies.states[a].velocity).cross(wrench.normal[0]);
-    let share = inverse_a / (inverse_a + inverse_b);
-    let mut refused = DVec3::ZERO;
-    for (row, part) in [(a, 1.0 - share), (b, share)] {
-        let turn = bodies.constants[row].turning_part(bodies.states[row].rotation, lost * part);
-        bodies.states[row].angular_momentum += turn;
-        refused += lost * part - turn;
-    }
-    refused
 }
