@@ -49,10 +49,16 @@ pub(crate) mod field {
     pub const SHARE: usize = 39;
     /// What the bodies' drifts have moved `b` against `a` when the contact was renewed, contact frame, m.
     pub const DRIFTED: usize = 40;
-    /// What they have moved it since, as far as the arms take account of it, m.
-    pub const SHIFT: usize = 43;
+    /// Twice the vector of each body's turn since its anchor when the contact was renewed, contact frame.
+    pub const TURNED_A: usize = 43;
+    pub const TURNED_B: usize = 46;
+    /// The arms of friction when the contact was renewed.
+    pub const RENEWED_FRICTION_A: usize = 49;
+    pub const RENEWED_FRICTION_B: usize = 52;
+    /// 0 where both surfaces are round, 1 elsewhere: as one rolls over the other, it is the normal that turns.
+    pub const FOLLOWS: usize = 55;
     /// The first point's lines; each further point [`POINT_LINES`] further.
-    pub const POINT: usize = 46;
+    pub const POINT: usize = 56;
 
     /// Of a point: arm of `a` (x, y, and z of what turns with the body), then of `b`. Arms of both end at one place, also when
     /// the bodies have moved against each other.
@@ -70,7 +76,10 @@ pub(crate) mod field {
     pub const LEAST: usize = 10;
     /// Separation at the start of the substep, m.
     pub const SEPARATION: usize = 11;
-    pub const POINT_LINES: usize = 12;
+    /// Arms, x and y, when the contact was renewed.
+    pub const RENEWED_A: usize = 12;
+    pub const RENEWED_B: usize = 14;
+    pub const POINT_LINES: usize = 16;
 
     /// Impulses of a contact: of its points along the normal, friction, twist.
     pub const ROWS: usize = super::POINTS + 3;

@@ -145,49 +145,80 @@ pub(crate) fn measure<L: Lanes>(bundle: &mut Bundle, drifts: &[Row]) {
         let drift_b = L::gather(drifts, indices(&bundle.b, part, L::WIDTH));
         let apart = (linear(&drift_b) - linear(&drift_a)).dot(frame.normal);
         let (turn_a, turn_b) = (drift_of_arm(&frame, &drift_a), drift_of_arm(&frame, &drift_b));
-        let moved = frame.inward(linear(&drift_b) - linear(&drift_a)) - vector(bundle, field::DRIFTED, part);
-        let shifts = Shifts::new(bundle, moved, part);
+        let shift = Shift::new(bundle, &frame, [&drift_a, &drift_b], part);
         let (mut gap, mut widest) = (L::splat(f32::MAX), L::splat(f32::MIN));
         for point in 0..bundle.points {
             let at = |line: usize| field::of_point(point, line);
-            let (arm_a, arm_b) = shifts.apply(bundle, [at(field::ARM_A), at(field::ARM_B)], part);
+            let renewed = |plane: usize, whole: usize| {
+                let get = |index: usize| line::<L>(bundle, at(index), part);
+                Vector::new(get(plane), get(plane + 1), get(whole + 2))
+            };
+            let arm_a = renewed(field::RENEWED_A, field::ARM_A);
+            let arm_b = renewed(field::RENEWED_B, field::ARM_B);
             let base = line::<L>(bundle, at(field::BASE), part);
             let separation = base + apart + turn_b.dot(arm_b) - turn_a.dot(arm_a);
             separation.store(&mut bundle.lines[at(field::SEPARATION)], part);
+            let shifts = shift.of([arm_a, arm_b]);
+            for (field, arm, shift) in [(field::ARM_A, arm_a, shifts[0]), (field::ARM_B, arm_b, shifts[1])] {
+                (arm.x + shift.x).store(&mut bundle.lines[at(field)], part);
+                (arm.y + shift.y).store(&mut bundle.lines[at(field) + 1], part);
+            }
             let real = line::<L>(bundle, at(field::MASS), part);
             gap = L::select_greater(real, L::splat(0.0), [gap.min(separation), gap]);
             widest = L::select_greater(real, L::splat(0.0), [widest.max(separation), widest]);
         }
-        shifts.apply(bundle, [field::FRICTION_ARM_A, field::FRICTION_ARM_B], part);
-        store(moved, bundle, field::SHIFT, part);
+        shift.friction(bundle, part);
         widest.store(&mut bundle.lines[field::WIDEST], part);
         gap.store(&mut bundle.lines[field::GAP], part);
     }
 }
 
-/// What arms get when `b` has moved against `a`: so far, and now.
-struct Shifts<L> {
-    before: [Vector<L>; 2],
-    after: [Vector<L>; 2],
+/// How bodies have moved since a contact was renewed, and where this leads the place at which its impulses act: between where the
+/// two bodies would carry it, by their shares.
+struct Shift<L> {
+    /// `b` against `a`.
+    moved: Vector<L>,
+    /// Turn of each body, rad.
+    turn_a: Vector<L>,
+    turn_b: Vector<L>,
+    share: L,
 }
 
-impl<L: Lanes> Shifts<L> {
+impl<L: Lanes> Shift<L> {
     #[inline(always)]
-    fn new(bundle: &Bundle, moved: Vector<L>, part: usize) -> Self {
-        let share = line::<L>(bundle, field::SHARE, part);
-        let split = |moved: Vector<L>| [moved.scaled(share), moved.scaled(share - L::splat(1.0))];
-        Self { before: split(vector(bundle, field::SHIFT, part)), after: split(moved) }
+    fn new(bundle: &Bundle, frame: &Frame<L>, [drift_a, drift_b]: [&[L; 8]; 2], part: usize) -> Self {
+        let turn = |drift: &[L; 8]| frame.inward(angular(drift)).scaled(L::splat(2.0) * drift[6]);
+        let moved = frame.inward(linear(drift_b) - linear(drift_a));
+        let moved = moved - vector(bundle, field::DRIFTED, part);
+        Self {
+            moved: moved.scaled(line(bundle, field::FOLLOWS, part)),
+            turn_a: turn(drift_a) - vector(bundle, field::TURNED_A, part),
+            turn_b: turn(drift_b) - vector(bundle, field::TURNED_B, part),
+            share: line(bundle, field::SHARE, part),
+        }
     }
 
-    /// Shifts both arms; returns what they were when the contact was renewed.
+    /// What is added to both arms of a place, whose parts that turn were these when the contact was renewed.
     #[inline(always)]
-    fn apply(&self, bundle: &mut Bundle, arms: [usize; 2], part: usize) -> (Vector<L>, Vector<L>) {
-        let renewed = [0, 1].map(|side| {
-            let arm = vector::<L>(bundle, arms[side], part) - self.before[side];
-            store(arm + self.after[side], bundle, arms[side], part);
-            arm
-        });
-        (renewed[0], renewed[1])
+    fn of(&self, [arm_a, arm_b]: [Vector<L>; 2]) -> [Vector<L>; 2] {
+        let (carried_a, carried_b) = (self.turn_a.cross(arm_a), self.turn_b.cross(arm_b));
+        let rest = L::splat(1.0) - self.share;
+        [
+            carried_a.scaled(rest) + (carried_b + self.moved).scaled(self.share),
+            carried_b.scaled(self.share) + (carried_a - self.moved).scaled(rest),
+        ]
+    }
+
+    #[inline(always)]
+    fn friction(&self, bundle: &mut Bundle, part: usize) {
+        let arm_a = vector::<L>(bundle, field::RENEWED_FRICTION_A, part);
+        let arm_b = vector::<L>(bundle, field::RENEWED_FRICTION_B, part);
+        let round = |radius: usize| line::<L>(bundle, field::ROUNDNESS + radius, part);
+        let turning_a = Vector::new(arm_a.x, arm_a.y, arm_a.z - round(0));
+        let turning_b = Vector::new(arm_b.x, arm_b.y, arm_b.z + round(1));
+        let [shift_a, shift_b] = self.of([turning_a, turning_b]);
+        store(arm_a + shift_a, bundle, field::FRICTION_ARM_A, part);
+        store(arm_b + shift_b, bundle, field::FRICTION_ARM_B, part);
     }
 }
 

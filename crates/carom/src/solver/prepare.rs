@@ -65,6 +65,11 @@ impl Frame {
         ]
     }
 
+    /// As the kernel's.
+    fn twice_turn(&self, [i, j, k, w]: [f64; 4]) -> DVec3 {
+        self.inward(DVec3::new(i, j, k)) * (2.0 * w)
+    }
+
     /// As the kernel's `drift_of_arm`.
     fn drift_of_arm(&self, [i, j, k, w]: [f64; 4]) -> DVec3 {
         let turn = self.inward(DVec3::new(i, j, k));
@@ -104,6 +109,10 @@ pub(crate) fn lane(
         let turning = [arms[0] - sides[0].roundness * DVec3::Z, arms[1] + sides[1].roundness * DVec3::Z];
         put_vector(&mut put, at(field::ARM_A), turning[0]);
         put_vector(&mut put, at(field::ARM_B), turning[1]);
+        for (line, arm) in [(field::RENEWED_A, arms[0]), (field::RENEWED_B, arms[1])] {
+            put(at(line), arm.x);
+            put(at(line) + 1, arm.y);
+        }
         put(
             at(field::BASE),
             contact.separation - apart - drifts[1].dot(turning[1]) + drifts[0].dot(turning[0]),
@@ -118,6 +127,8 @@ pub(crate) fn lane(
     let arms = sides.map(|side| frame.inward(middle - side.center));
     put_vector(&mut put, field::FRICTION_ARM_A, arms[0]);
     put_vector(&mut put, field::FRICTION_ARM_B, arms[1]);
+    put_vector(&mut put, field::RENEWED_FRICTION_A, arms[0]);
+    put_vector(&mut put, field::RENEWED_FRICTION_B, arms[1]);
     let response = tangent_response(inverse_mass, &inertia, &arms);
     put(field::FRICTION_MASS, inverse_of(response));
     put(field::FRICTION, remembered.friction.dot(frame.first));
@@ -130,13 +141,21 @@ pub(crate) fn lane(
     put(field::ROUNDNESS, sides[0].roundness);
     put(field::ROUNDNESS + 1, sides[1].roundness);
     put(field::SHARE, share(sides));
+    put(field::FOLLOWS, f64::from(sides.iter().any(|side| side.roundness == 0.0)));
     put_vector(&mut put, field::DRIFTED, frame.inward(sides[1].drift.0 - sides[0].drift.0));
+    let turned = sides.map(|side| frame.twice_turn(side.drift.1));
+    put_vector(&mut put, field::TURNED_A, turned[0]);
+    put_vector(&mut put, field::TURNED_B, turned[1]);
     lane
 }
 
-/// Where the two bodies' ideas of a place differ, the lighter one's counts more: an error of the arm would turn it more.
+/// Where the two bodies' ideas of a place differ: what is round touches where it is, on what is not. Else the lighter one's counts
+/// more, as an error of the arm would turn it more.
 fn share([a, b]: &[Side; 2]) -> f64 {
-    let weights = if a.inverse_mass + b.inverse_mass > 0.0 {
+    let [round_a, round_b] = [a, b].map(|side| side.roundness > 0.0 && side.inverse_mass > 0.0);
+    let weights = if round_a != round_b {
+        [round_a, round_b].map(f64::from)
+    } else if a.inverse_mass + b.inverse_mass > 0.0 {
         [a.inverse_mass, b.inverse_mass]
     } else {
         [a, b].map(|side| f64::from(side.inverse_inertia != DMat3::ZERO))

@@ -5,7 +5,6 @@ use crate::bodies::Bodies;
 use crate::impacts::time_of_impact::RestLaw;
 use crate::ledger::contacts::{pushed_out, shifted, stocks};
 use crate::math::{DVec3, rotation_from_vector};
-use crate::solver::graph::Wrench;
 use crate::solver::lanes::{Row, WRITABLE};
 
 /// Share of an overlap that is pushed out at the end of a step.
