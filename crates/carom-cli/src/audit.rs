@@ -10,9 +10,11 @@
 //! motion.rs   a body's course through a step      rest.rs     what contacts that rest did to it
 //! near.rs     who came near whom                  record.rs   touches that are missing from the record
 //! law.rs      the laws                            cone.rs     what pushes can explain
+//!                                                 group.rs    bodies that rest on each other, together
 //! ```
 
 mod cone;
+mod group;
 mod law;
 mod motion;
 mod near;

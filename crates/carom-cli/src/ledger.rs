@@ -168,6 +168,9 @@ impl LedgerTotals {
             let (relative, tolerance) = (rough(worst.relative), rough(self.residual.tolerance));
             rows.push(("", format!("at most {relative} of a step's posts, {verdict} {tolerance}:")));
             rows.push(("", format!("{}, {}", worst.name(), worst.place())));
+        } else {
+            let tolerance = rough(self.residual.tolerance);
+            rows.push(("", format!("in no step more than its rounding, within {tolerance} of its posts")));
         }
         rows
     }

@@ -100,7 +100,9 @@ fn rows_agree_with_the_trace_and_the_summary() {
     let from_ground: f64 = rows.iter().map(|row| row[ACCOUNTS[2] + 1]).sum();
     assert!(near(&ledger["static"]["linear"][1], from_ground), "{ledger}");
     assert!(ledger["residual"]["relative"][2].as_f64().expect("a number") < 1e-9, "{ledger}");
-    assert!(ledger["worst_residual"]["relative"].as_f64().expect("a number") < 1e-5, "{ledger}");
+    // There is none where every step fits to its rounding.
+    let worst = &ledger["worst_residual"];
+    assert!(worst.is_null() || worst["relative"].as_f64().expect("a number") < 1e-5, "{ledger}");
 }
 
 #[test]

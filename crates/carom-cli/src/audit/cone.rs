@@ -9,22 +9,22 @@ pub(super) type Cone = (DVec3, f64);
 const PASSES: usize = 400;
 pub(super) const SHARED_OUT: f64 = 1e-3;
 
-/// What of an impulse no pushes within the cones explain, nor up to once the `advance`, either way, N·s: each in turn takes what
-/// it can of what is left.
+/// What of an impulse neither the `advance`, up to once and either way, nor pushes within the cones explain, N·s: each in turn takes
+/// what it can of what is left.
 pub(super) fn unexplained(impulse: DVec3, cones: &[Cone], advance: DVec3, enough: f64) -> f64 {
     let mut parts = vec![DVec3::ZERO; cones.len()];
     let mut share = 0.0;
     let mut left = impulse;
     for _ in 0..PASSES {
-        for (part, cone) in parts.iter_mut().zip(cones) {
-            let taken = nearest_in(*cone, *part + left);
-            left += *part - taken;
-            *part = taken;
-        }
         if advance != DVec3::ZERO {
             let taken = (share + left.dot(advance) / advance.length_squared()).clamp(-1.0, 1.0);
             left += (share - taken) * advance;
             share = taken;
+        }
+        for (part, cone) in parts.iter_mut().zip(cones) {
+            let taken = nearest_in(*cone, *part + left);
+            left += *part - taken;
+            *part = taken;
         }
         if left.length() <= 0.5 * enough {
             break;
