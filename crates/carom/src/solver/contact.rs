@@ -182,6 +182,8 @@ struct Shift<L> {
     turn_a: Vector<L>,
     turn_b: Vector<L>,
     share: L,
+    /// Where one surface is round, how far the place has gone round it as the other one turned, and the normal with it.
+    tilted: Vector<L>,
 }
 
 impl<L: Lanes> Shift<L> {
@@ -190,10 +192,26 @@ impl<L: Lanes> Shift<L> {
         let turn = |drift: &[L; 8]| frame.inward(angular(drift)).scaled(L::splat(2.0) * drift[6]);
         let moved = frame.inward(linear(drift_b) - linear(drift_a));
         let moved = moved - vector(bundle, field::DRIFTED, part);
+        let follows = line::<L>(bundle, field::FOLLOWS, part);
+        let turn_a = turn(drift_a) - vector(bundle, field::TURNED_A, part);
+        let turn_b = turn(drift_b) - vector(bundle, field::TURNED_B, part);
+        // Against what has a large radius, as far as the body's own arm: further round, substeps would have to be shorter.
+        let arms = [field::RENEWED_FRICTION_A, field::RENEWED_FRICTION_B];
+        let [depth_a, depth_b] = arms.map(|arm| line::<L>(bundle, arm + 2, part));
+        let radius = |side: usize, depth: L| {
+            let radius = line::<L>(bundle, field::ROUNDNESS + side, part);
+            radius.min(depth.max(L::splat(0.0))) * follows
+        };
+        let (round_a, round_b) = (radius(0, L::splat(0.0) - depth_b), radius(1, depth_a));
         Self {
-            moved: moved.scaled(line(bundle, field::FOLLOWS, part)),
-            turn_a: turn(drift_a) - vector(bundle, field::TURNED_A, part),
-            turn_b: turn(drift_b) - vector(bundle, field::TURNED_B, part),
+            moved: moved.scaled(follows),
+            tilted: Vector::new(
+                turn_b.y * round_a - turn_a.y * round_b,
+                turn_a.x * round_b - turn_b.x * round_a,
+                L::splat(0.0),
+            ),
+            turn_a,
+            turn_b,
             share: line(bundle, field::SHARE, part),
         }
     }
@@ -204,8 +222,8 @@ impl<L: Lanes> Shift<L> {
         let (carried_a, carried_b) = (self.turn_a.cross(arm_a), self.turn_b.cross(arm_b));
         let rest = L::splat(1.0) - self.share;
         [
-            carried_a.scaled(rest) + (carried_b + self.moved).scaled(self.share),
-            carried_b.scaled(self.share) + (carried_a - self.moved).scaled(rest),
+            carried_a.scaled(rest) + (carried_b + self.moved).scaled(self.share) + self.tilted,
+            carried_b.scaled(self.share) + (carried_a - self.moved).scaled(rest) + self.tilted,
         ]
     }
 
