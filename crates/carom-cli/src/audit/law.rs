@@ -134,7 +134,7 @@ impl Law {
     pub fn tolerance_rule(self) -> &'static str {
         match self {
             Law::SeparatingSpeed => {
-                "ε·Σ(|v| + |r|·(|I⁻¹|·|Iω| + |ω|)) + |u|·(error of the normal); of several, + 0.1·(that of parting)"
+                "ε·Σ(|v| + |r|·(|I⁻¹|·|Iω| + |ω|)) + |u|·(error of the normal); of several, + 0.1·(that of parting) or 1e-3·|v_c|"
             }
             Law::LinearMomentum => "ε·Σ m|v|, before and after",
             Law::AngularMomentum => "ε·Σ(|x−p|·m|v| + |Iω|), before and after, p the point",
@@ -147,7 +147,7 @@ impl Law {
             }
             Law::Record => "the rest threshold ½·a·h; g·h for what contacts hold",
             Law::Flight => "ε·(|v| + |v'| + |a|·t)",
-            Law::Path => "ε·(|v| + |v'|)·t + 1e-7·|centre of mass from origin| + 1e-15·|x|",
+            Law::Path => "ε·(|v| + |v'|)·t + 2e-7·|centre of mass from origin| + 1e-15·|x|",
             Law::Spin => "ε·I_max·(|ω| + |ω'|)",
             Law::Turning => "ε·I_max·(|ω|² + |ω'|²), 4ε·… where more than 1e-2 rad are turned",
             Law::Support => {

@@ -232,7 +232,7 @@ pub(super) fn deviation(world: &World, course: &Course, from: &Knot, to: &Knot) 
         speeds: speeds + pull + gyration * spins,
         flight: [
             (velocity.length(), ROUNDING * (speeds + pull)),
-            (miss, ROUNDING * (speeds + pull) * time + 1e-7 * course.center + 1e-15 * places),
+            (miss, ROUNDING * (speeds + pull) * time + 2e-7 * course.center + 1e-15 * places),
             (spin.length(), ROUNDING * scale[0]),
             (energy.abs(), ROUNDING * turning_scale * scale[1]),
         ],

@@ -45,14 +45,17 @@ impl Struck {
     }
 }
 
-/// How much of the rest threshold may be left where several contacts push at once: what closes so slowly is a contact.
+/// How much of the rest threshold, or if it is more of the closing speed, may be missing where several contacts push at once: what closes
+/// so slowly is a contact, and so far rounds of reflections agree.
 const LEFT: f64 = 0.1;
+const AGREED: f64 = 1e-3;
 
 /// Holds the contacts of one round to their laws; each has a rest threshold, m/s.
 pub(super) fn judge(round: &[&Strike], rest_threshold: impl Fn(&Strike) -> f64, findings: &mut Vec<Finding>) {
     let bodies = bodies(round);
     for strike in round {
-        let left = if round.len() > 1 { Some(LEFT * rest_threshold(strike)) } else { None };
+        let closing = positive(-strike.speed(&strike.before));
+        let left = (round.len() > 1).then(|| (LEFT * rest_threshold(strike)).max(AGREED * closing));
         findings.push(separating_speed(strike, left));
         findings.push(push(strike));
     }

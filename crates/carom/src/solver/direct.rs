@@ -377,10 +377,9 @@ impl Island {
             for index in first..first + field::ROWS {
                 let unknown = &self.unknowns[index];
                 let lack = unknown.wanted - self.velocity(unknown);
-                self.set(index, unknown.impulse + unknown.mass * lack);
-                if index < first + POINTS {
-                    self.set(index, self.unknowns[index].impulse.max(0.0));
-                }
+                let impulse = unknown.impulse + unknown.mass * lack;
+                // At once: what a point out of reach asks for would leave nothing of the velocity but its rounding.
+                self.set(index, if index < first + POINTS { impulse.max(0.0) } else { impulse });
             }
             self.project_friction(contact);
         }
