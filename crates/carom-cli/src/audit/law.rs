@@ -138,7 +138,7 @@ impl Law {
             }
             Law::LinearMomentum => "ε·Σ m|v|, before and after",
             Law::AngularMomentum => "ε·Σ(|x−p|·m|v| + |Iω|), before and after, p the point",
-            Law::OwnMomentum => "ε·Σ(m|v| + |Iω|/ℓ), before and after; ℓ the longest lever arm",
+            Law::OwnMomentum => "ε·Σ(m|v| + |Iω|/ℓ), before and after, + ε·Σf; ℓ the longest lever arm",
             Law::Push => "ε·(Σ m|v| of the lighter body + f) + 2f·(error of the normal)",
             Law::Energy => "ε·Σ(m|v|² + |ω|·|Iω|) + (1−C_r)·f·(tolerance of the speed)",
             Law::Normal => "5e-4 rad: what iterations on curved shapes leave of a normal",

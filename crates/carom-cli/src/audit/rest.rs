@@ -103,13 +103,14 @@ impl<'a> Resting<'a> {
     }
 
     /// Closing speeds (m/s) that a blow may leave to contacts: of pairs that rested against each other already, and do not
-    /// bounce without loss, if they are stopped before they are deep in each other.
+    /// bounce without loss, if they are stopped before they are deep in each other. What does not bounce rests as soon as it is struck.
     pub(super) fn left_speeds(&self, strikes: &[Strike]) -> BTreeMap<[BodyId; 2], f64> {
         let struck: BTreeSet<[BodyId; 2]> = strikes.iter().map(|strike| strike.ids).collect();
         let rests = |pair: &&Pair<'_>| {
+            let restitution = pair.surface().restitution;
             struck.contains(&pair.ids)
-                && pair.surface().restitution < 1.0
-                && pair.gap(self.span.0) <= self.horizon(pair)
+                && restitution < 1.0
+                && (restitution == 0.0 || pair.gap(self.span.0) <= self.horizon(pair))
         };
         let resting = self.pairs.iter().filter(rests);
         resting.map(|pair| (pair.ids, HORIZON * pair.size() / self.substep)).collect()

@@ -19,6 +19,8 @@ struct Struck {
     /// What its contacts gave it: momentum, and angular momentum about its centre.
     linear: DVec3,
     angular: DVec3,
+    /// Sum of the sizes of their impulses, N·s.
+    pushed: f64,
     longest_arm: f64,
 }
 
@@ -74,10 +76,12 @@ fn bodies(round: &[&Strike]) -> BTreeMap<BodyId, Struck> {
                 after: strike.after[side],
                 linear: DVec3::ZERO,
                 angular: DVec3::ZERO,
+                pushed: 0.0,
                 longest_arm: 0.0,
             });
             let impulse = strike.impulse_on(side);
             body.linear += impulse;
+            body.pushed += impulse.length();
             body.angular += strike.arms[side].cross(impulse);
             body.longest_arm = body.longest_arm.max(strike.arms[side].length());
             if (body.before, body.after) != (strike.before[side], strike.after[side]) {
@@ -152,7 +156,7 @@ fn momentum(round: &[&Strike], bodies: &BTreeMap<BodyId, Struck>, findings: &mut
             law: Law::OwnMomentum,
             place: place(),
             error: (change.0 - taken.0).length() + (change.1 - taken.1).length() / length,
-            tolerance: ROUNDING * (body.linear_scale() + body.linear.length() + body.spin_scale() / length),
+            tolerance: ROUNDING * (body.linear_scale() + body.pushed + body.spin_scale() / length),
         });
     }
     let impulses: f64 = round.iter().map(|strike| strike.impulse.length()).sum();

@@ -152,6 +152,8 @@ struct Row {
     before: f64,
     /// K: from an impulse at the point to the change of velocity there, 1/kg.
     response: DMat3,
+    /// K⁻¹, where there is one, kg.
+    stiffness: Option<DMat3>,
     /// The most that an impulse across the normal changes the velocity across it, 1/kg.
     yielding: f64,
 }
@@ -169,9 +171,17 @@ impl Row {
         Row {
             before: (b.velocity.at(b.arm) - a.velocity.at(a.arm)).dot(normal),
             response,
+            stiffness: inverse_of(&response),
             yielding: mean + half.hypot(first.dot(bend_second)),
         }
     }
+}
+
+/// The inverse of a matrix that has one: of a body that cannot be moved along some axis has none.
+fn inverse_of(response: &DMat3) -> Option<DMat3> {
+    const SINGULAR: f64 = 1e-9;
+    let size = response.x_axis.x + response.y_axis.y + response.z_axis.z;
+    (response.determinant() > SINGULAR * size.powi(3)).then(|| response.inverse())
 }
 
 impl<'a> Round<'a> {
@@ -249,9 +259,7 @@ impl<'a> Round<'a> {
         let (smooth, before) = (self.blows.clone(), self.velocities.clone());
         for _ in 0..FRICTION_SWEEPS {
             // Friction last, so that wherever the sweeps end it keeps to the cone of the push that it belongs to.
-            let change = (0..self.spots.len())
-                .map(|index| self.push_along_normal(index).max(self.rub_one(index)))
-                .fold(0.0, f64::max);
+            let change = (0..self.spots.len()).map(|index| self.push_and_rub(index)).fold(0.0, f64::max);
             if change <= (FRICTION_AGREEMENT * self.fastest).max(self.negligible) {
                 break;
             }
@@ -272,6 +280,53 @@ impl<'a> Round<'a> {
             }
             self.velocities = velocities_after(self.movers, self.spots, &self.blows);
         }
+    }
+
+    /// Both at one spot among others; how much it changes its velocity, m/s.
+    fn push_and_rub(&mut self, index: usize) -> f64 {
+        self.stick(index).unwrap_or_else(|| {
+            let pushed = self.push_along_normal(index);
+            let rubbed = self.rub_one(index);
+            pushed.max(rubbed).max(self.push_along_cone(index))
+        })
+    }
+
+    /// The impulse that ends the slip and gives the spot its speed, if the cone allows it. Push and friction by turns would come
+    /// near it but slowly where they act on each other: on the tip of what is long and thin.
+    fn stick(&mut self, index: usize) -> Option<f64> {
+        let (spot, row) = (&self.spots[index], &self.rows[index]);
+        let stiffness = row.stiffness.filter(|_| spot.is_rough() && !spot.pulls)?;
+        let normal = spot.contact.normal;
+        let lack = spot.wanted(row.before) * normal - self.velocity(index);
+        let further = stiffness * lack;
+        let blow = &self.blows[index];
+        let along = further.dot(normal);
+        let across = further - along * normal;
+        let (push, friction) = (blow.normal + along, blow.tangent + across);
+        if push <= 0.0 || friction.length() > spot.contact.static_friction * push {
+            return None;
+        }
+        self.blows[index].sticks = true;
+        self.strike(index, along, across);
+        Some(lack.length())
+    }
+
+    /// What slides gets the rest of its push with the friction that belongs to it; how much this changes its speed, m/s.
+    fn push_along_cone(&mut self, index: usize) -> f64 {
+        let (spot, row, blow) = (&self.spots[index], &self.rows[index], &self.blows[index]);
+        if blow.sticks || blow.normal <= 0.0 || blow.tangent == DVec3::ZERO {
+            return 0.0;
+        }
+        let normal = spot.contact.normal;
+        let friction = blow.tangent / blow.normal;
+        let per_impulse = normal.dot(row.response * (normal + friction));
+        if per_impulse <= 0.0 {
+            return 0.0;
+        }
+        let lack = spot.wanted(row.before) - self.velocity(index).dot(normal);
+        let along = (lack / per_impulse).max(-blow.normal);
+        self.strike(index, along, along * friction);
+        lack.abs()
     }
 
     /// Friction at one spot among others: it ends the slip if the cone allows it; how much it changes its velocity, m/s.
