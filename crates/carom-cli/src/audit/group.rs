@@ -20,7 +20,7 @@ impl Resting<'_> {
         for pair in self.pairs {
             let places = pair.ids.map(|id| place(&id));
             let touching = |pair: &Pair<'_>| {
-                let reach = self.reach(pair, self.span.1 - self.span.0);
+                let reach = self.reach(pair);
                 pair.gap(self.span.0) <= reach || pair.gap(self.span.1) <= reach
             };
             match places {

@@ -6,6 +6,9 @@ use carom::math::{DVec3, Pose};
 use carom::{BodyId, Collider, Surface, World};
 use std::collections::BTreeMap;
 
+/// Up to which gap, as a share of the smaller body, contacts stop what does not bounce.
+pub(super) const HORIZON: f64 = 0.02;
+
 /// Two colliders of different bodies, of which one can be moved at least.
 pub(super) struct Pair<'a> {
     pub(super) ids: [BodyId; 2],
@@ -116,6 +119,11 @@ impl Pair<'_> {
 
     pub(super) fn surface(&self) -> Surface {
         Surface::between(&self.colliders[0].material, &self.colliders[1].material)
+    }
+
+    /// Up to which gap it may rest, m; `margin` for what bounces.
+    pub(super) fn horizon(&self, margin: f64) -> f64 {
+        if self.surface().restitution > 0.0 { margin } else { margin.max(HORIZON * self.size()) }
     }
 
     /// Farthest point of a side's collider from the centre of mass, m.

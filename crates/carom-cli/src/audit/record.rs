@@ -18,7 +18,7 @@ const DEPTH: f64 = 1e-5;
 pub(super) struct Touching<'a> {
     pub(super) world: &'a World,
     pub(super) substep: f64,
-    /// Up to which distance bodies count as touching at the start of the step, m.
+    /// Up to which distance bodies that bounce count as touching at the start of the step, m.
     pub(super) margin: f64,
     /// Start and end of the step, s.
     pub(super) span: (f64, f64),
@@ -44,7 +44,7 @@ pub(super) fn judge(
     }
     for (ids, pairs) in of_bodies {
         let until = recorded.get(&ids).copied().unwrap_or(touching.span.1);
-        let apart = pairs.iter().all(|pair| pair.gap(touching.span.0) > touching.margin);
+        let apart = pairs.iter().all(|pair| pair.gap(touching.span.0) > pair.horizon(touching.margin));
         if apart {
             findings.extend(
                 pairs

@@ -7,14 +7,11 @@
 use super::cone::{Cone, SHARED_OUT, unexplained};
 use super::law::{Finding, Law, Place, ROUNDING};
 use super::motion::{Course, Deviation, deviation};
-use super::near::{Pair, Touch};
+use super::near::{HORIZON, Pair, Touch};
 use super::strike::Strike;
 use carom::math::DVec3;
 use carom::{BodyId, Motion, World};
 use std::collections::{BTreeMap, BTreeSet};
-
-/// Up to which gap, as a share of the smaller body, contacts stop what does not bounce.
-const HORIZON: f64 = 0.02;
 
 /// A step as seen by what rests in it.
 pub(super) struct Resting<'a> {
@@ -97,11 +94,6 @@ impl<'a> Resting<'a> {
         given.into_iter().map(|(id, given)| (id, given.course_error)).collect()
     }
 
-    /// Up to which gap a pair may go on resting, m.
-    fn horizon(&self, pair: &Pair<'_>) -> f64 {
-        if pair.surface().restitution > 0.0 { self.margin } else { self.margin.max(HORIZON * pair.size()) }
-    }
-
     /// Closing speeds (m/s) that a blow may leave to contacts: of pairs that rested against each other already, and do not
     /// bounce without loss, if they are stopped before they are deep in each other. What does not bounce rests as soon as it is struck.
     pub(super) fn left_speeds(&self, strikes: &[Strike]) -> BTreeMap<[BodyId; 2], f64> {
@@ -110,20 +102,19 @@ impl<'a> Resting<'a> {
             let restitution = pair.surface().restitution;
             struck.contains(&pair.ids)
                 && restitution < 1.0
-                && (restitution == 0.0 || pair.gap(self.span.0) <= self.horizon(pair))
+                && (restitution == 0.0 || pair.gap(self.span.0) <= pair.horizon(self.margin))
         };
         let resting = self.pairs.iter().filter(rests);
         resting.map(|pair| (pair.ids, HORIZON * pair.size() / self.substep)).collect()
     }
 
-    /// Up to which gap contacts of a pair may push within `time`: they may have closed it, or opened it since.
-    pub(super) fn reach(&self, pair: &Pair<'_>, time: f64) -> f64 {
+    /// Up to which gap contacts of a pair may push: in a substep they may close it, or open it.
+    pub(super) fn reach(&self, pair: &Pair<'_>) -> f64 {
         let paces = [0, 1].map(|side| {
             let (speed, spin) = pair.course(side).pace();
             speed + if spin > 0.0 { spin * pair.reach(side) } else { 0.0 }
         });
-        self.horizon(pair)
-            + (paces[0] + paces[1]).min(pair.size() / time.max(f64::MIN_POSITIVE)) * time.min(self.substep)
+        pair.horizon(self.margin) + ((paces[0] + paces[1]) * self.substep).min(pair.size())
     }
 
     /// The cones of what may have pushed a body.
@@ -150,12 +141,13 @@ impl<'a> Resting<'a> {
         cones: &mut Vec<Cone>,
     ) {
         let mut touches: Vec<Touch> = Vec::new();
-        let reach = self.reach(pair, span.1 - span.0);
+        let reach = self.reach(pair);
         times.iter().for_each(|&time| pair.touches(time, reach, &mut touches));
-        let turned: f64 =
-            [0, 1].map(|side| pair.course(side).pace().1).iter().sum::<f64>() * (span.1 - span.0);
+        // What contacts give for a substep, they may give at its start.
+        let time = (span.1 - span.0).max(self.substep);
+        let turned: f64 = [0, 1].map(|side| pair.course(side).pace().1).iter().sum::<f64>() * time;
         let speed: f64 = [0, 1].map(|side| pair.course(side).pace().0).iter().sum();
-        let rolled = speed * (span.1 - span.0) / pair.size();
+        let rolled = speed * time / pair.size();
         let sign = if pair.ids[0] == id { -1.0 } else { 1.0 };
         let wider = (turned + rolled).min(1.0);
         cones.extend(touches.iter().map(|touch| (sign * touch.normal, touch.friction + wider + 1e-4)));
