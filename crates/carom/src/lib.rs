@@ -63,6 +63,7 @@ pub use ledger::Ledger;
 pub use material::{Combine, Material, Surface};
 pub use report::{Impact, Overlap, StepReport};
 pub use shape::Shape;
+pub use solver::lanes::InstructionSet;
 pub use world::{Energy, Momentum, Settings, World};
 
 #[cfg(test)]

@@ -8,6 +8,7 @@ use crate::ledger::{self, Ledger, Stock};
 use crate::mass::BodyMass;
 use crate::math::DVec3;
 use crate::report::StepReport;
+use crate::solver::lanes::{InstructionSet, Machine};
 use crate::step::broad_phase::BroadPhase;
 use crate::step::pairs::Pairs;
 use crate::step::rest::Rest;
@@ -22,11 +23,19 @@ pub struct Settings {
     pub substeps: u32,
     /// Whether the world keeps a [`Ledger`](crate::Ledger) from the start: momentum and energy of every step, by cause.
     pub ledger: bool,
+    /// Instructions that the solver computes with: by default the widest that this machine has. They decide how fast it is, and
+    /// not a bit of the result. Of what the machine lacks the next narrower one is taken.
+    pub instruction_set: InstructionSet,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { gravity: DVec3::new(0.0, -9.81, 0.0), substeps: 4, ledger: false }
+        Self {
+            gravity: DVec3::new(0.0, -9.81, 0.0),
+            substeps: 4,
+            ledger: false,
+            instruction_set: InstructionSet::default(),
+        }
     }
 }
 
@@ -87,12 +96,13 @@ impl World {
     pub fn with_settings(settings: Settings) -> Self {
         let mut bodies = Bodies::new();
         ledger::keep(&mut bodies, settings.ledger);
+        let instruction_set = settings.instruction_set.or_narrower();
         Self {
-            settings,
+            settings: Settings { instruction_set, ..settings },
             bodies,
             broad_phase: BroadPhase::new(),
             pairs: Pairs::default(),
-            rest: Rest::new(),
+            rest: Rest::new(Machine::new(instruction_set)),
             report: StepReport::default(),
             ledger: Ledger::default(),
             refused: Vec::new(),

@@ -13,7 +13,13 @@
 //!
 //! *Books*: each impulse acts on both bodies, reversed on one; linear and angular momentum are kept to rounding.
 
-use super::bundle::{Bundle, field};
+mod measure;
+mod sweep;
+
+pub(crate) use measure::measure;
+pub(crate) use sweep::{sweep, sweep_normals};
+
+use super::bundle::{Bundle, POINTS, field};
 use super::lanes::{LANES, Lanes, Line, Row, Tensor, Vector};
 
 /// The contact frame of each lane.
@@ -54,7 +60,11 @@ pub(super) fn vector<L: Lanes>(bundle: &Bundle, first: usize, part: usize) -> Ve
 
 #[inline(always)]
 fn tensor<L: Lanes>(bundle: &Bundle, first: usize, part: usize) -> Tensor<L> {
-    Tensor([0, 1, 2, 3, 4, 5].map(|entry| line(bundle, first + entry, part)))
+    let [xx, xy, xz] =
+        [line(bundle, first, part), line(bundle, first + 1, part), line(bundle, first + 2, part)];
+    let [yy, yz, zz] =
+        [line(bundle, first + 3, part), line(bundle, first + 4, part), line(bundle, first + 5, part)];
+    Tensor([xx, xy, xz, yy, yz, zz])
 }
 
 #[inline(always)]
@@ -126,118 +136,12 @@ fn scatter<L: Lanes>(bundle: &Bundle, [a, b]: [[L; 8]; 2], velocities: &mut [Row
     L::scatter(b, velocities, indices(&bundle.b, part, L::WIDTH));
 }
 
-/// How far the turn `(x, y, z, w)` since the anchor moves a point along the normal, per metre of its arm: `Rᵀn − n`, in the
-/// contact frame.
+/// The parts of both arms that turn with their bodies: they end where the surfaces' centres of curvature are.
 #[inline(always)]
-fn drift_of_arm<L: Lanes>(frame: &Frame<L>, row: &[L; 8]) -> Vector<L> {
-    let turn = frame.inward(angular(row));
-    let (x, y, z, w, two) = (turn.x, turn.y, turn.z, row[6], L::splat(2.0));
-    Vector::new(two * (x * z - w * y), two * (y * z + w * x), -two * (x * x + y * y))
-}
-
-/// Finds the separation of every point from the bodies' `drifts` since their anchors, and lets both arms end where impulses act
-/// now.
-#[inline(always)]
-pub(crate) fn measure<L: Lanes>(bundle: &mut Bundle, drifts: &[Row]) {
-    for part in 0..LANES / L::WIDTH {
-        let frame = Frame::<L>::load(bundle, part);
-        let drift_a = L::gather(drifts, indices(&bundle.a, part, L::WIDTH));
-        let drift_b = L::gather(drifts, indices(&bundle.b, part, L::WIDTH));
-        let apart = (linear(&drift_b) - linear(&drift_a)).dot(frame.normal);
-        let (turn_a, turn_b) = (drift_of_arm(&frame, &drift_a), drift_of_arm(&frame, &drift_b));
-        let shift = Shift::new(bundle, &frame, [&drift_a, &drift_b], part);
-        let (mut gap, mut widest) = (L::splat(f32::MAX), L::splat(f32::MIN));
-        for point in 0..bundle.points {
-            let at = |line: usize| field::of_point(point, line);
-            let renewed = |plane: usize, whole: usize| {
-                let get = |index: usize| line::<L>(bundle, at(index), part);
-                Vector::new(get(plane), get(plane + 1), get(whole + 2))
-            };
-            let arm_a = renewed(field::RENEWED_A, field::ARM_A);
-            let arm_b = renewed(field::RENEWED_B, field::ARM_B);
-            let base = line::<L>(bundle, at(field::BASE), part);
-            let separation = base + apart + turn_b.dot(arm_b) - turn_a.dot(arm_a);
-            separation.store(&mut bundle.lines[at(field::SEPARATION)], part);
-            let shifts = shift.of([arm_a, arm_b]);
-            for (field, arm, shift) in [(field::ARM_A, arm_a, shifts[0]), (field::ARM_B, arm_b, shifts[1])] {
-                (arm.x + shift.x).store(&mut bundle.lines[at(field)], part);
-                (arm.y + shift.y).store(&mut bundle.lines[at(field) + 1], part);
-            }
-            let real = line::<L>(bundle, at(field::MASS), part);
-            gap = L::select_greater(real, L::splat(0.0), [gap.min(separation), gap]);
-            widest = L::select_greater(real, L::splat(0.0), [widest.max(separation), widest]);
-        }
-        shift.friction(bundle, part);
-        widest.store(&mut bundle.lines[field::WIDEST], part);
-        gap.store(&mut bundle.lines[field::GAP], part);
-    }
-}
-
-/// How bodies have moved since a contact was renewed, and where this leads the place at which its impulses act: between where the
-/// two bodies would carry it, by their shares.
-struct Shift<L> {
-    /// `b` against `a`.
-    moved: Vector<L>,
-    /// Turn of each body, rad.
-    turn_a: Vector<L>,
-    turn_b: Vector<L>,
-    share: L,
-    /// Where one surface is round, how far the place has gone round it as the other one turned, and the normal with it.
-    tilted: Vector<L>,
-}
-
-impl<L: Lanes> Shift<L> {
-    #[inline(always)]
-    fn new(bundle: &Bundle, frame: &Frame<L>, [drift_a, drift_b]: [&[L; 8]; 2], part: usize) -> Self {
-        let turn = |drift: &[L; 8]| frame.inward(angular(drift)).scaled(L::splat(2.0) * drift[6]);
-        let moved = frame.inward(linear(drift_b) - linear(drift_a));
-        let moved = moved - vector(bundle, field::DRIFTED, part);
-        let follows = line::<L>(bundle, field::FOLLOWS, part);
-        let turn_a = turn(drift_a) - vector(bundle, field::TURNED_A, part);
-        let turn_b = turn(drift_b) - vector(bundle, field::TURNED_B, part);
-        // Against what has a large radius, as far as the body's own arm: further round, substeps would have to be shorter.
-        let arms = [field::RENEWED_FRICTION_A, field::RENEWED_FRICTION_B];
-        let [depth_a, depth_b] = arms.map(|arm| line::<L>(bundle, arm + 2, part));
-        let radius = |side: usize, depth: L| {
-            let radius = line::<L>(bundle, field::ROUNDNESS + side, part);
-            radius.min(depth.max(L::splat(0.0))) * follows
-        };
-        let (round_a, round_b) = (radius(0, L::splat(0.0) - depth_b), radius(1, depth_a));
-        Self {
-            moved: moved.scaled(follows),
-            tilted: Vector::new(
-                turn_b.y * round_a - turn_a.y * round_b,
-                turn_a.x * round_b - turn_b.x * round_a,
-                L::splat(0.0),
-            ),
-            turn_a,
-            turn_b,
-            share: line(bundle, field::SHARE, part),
-        }
-    }
-
-    /// What is added to both arms of a place, whose parts that turn were these when the contact was renewed.
-    #[inline(always)]
-    fn of(&self, [arm_a, arm_b]: [Vector<L>; 2]) -> [Vector<L>; 2] {
-        let (carried_a, carried_b) = (self.turn_a.cross(arm_a), self.turn_b.cross(arm_b));
-        let rest = L::splat(1.0) - self.share;
-        [
-            carried_a.scaled(rest) + (carried_b + self.moved).scaled(self.share) + self.tilted,
-            carried_b.scaled(self.share) + (carried_a - self.moved).scaled(rest) + self.tilted,
-        ]
-    }
-
-    #[inline(always)]
-    fn friction(&self, bundle: &mut Bundle, part: usize) {
-        let arm_a = vector::<L>(bundle, field::RENEWED_FRICTION_A, part);
-        let arm_b = vector::<L>(bundle, field::RENEWED_FRICTION_B, part);
-        let round = |radius: usize| line::<L>(bundle, field::ROUNDNESS + radius, part);
-        let turning_a = Vector::new(arm_a.x, arm_a.y, arm_a.z - round(0));
-        let turning_b = Vector::new(arm_b.x, arm_b.y, arm_b.z + round(1));
-        let [shift_a, shift_b] = self.of([turning_a, turning_b]);
-        store(arm_a + shift_a, bundle, field::FRICTION_ARM_A, part);
-        store(arm_b + shift_b, bundle, field::FRICTION_ARM_B, part);
-    }
+fn turning<L: Lanes>(bundle: &Bundle, [a, b]: [Vector<L>; 2], part: usize) -> [Vector<L>; 2] {
+    let round_a = line::<L>(bundle, field::ROUNDNESS, part);
+    let round_b = line::<L>(bundle, field::ROUNDNESS + 1, part);
+    [Vector::new(a.x, a.y, a.z - round_a), Vector::new(b.x, b.y, b.z + round_b)]
 }
 
 /// Starts a substep of `1/rate` seconds: what each point asks for, with bodies that nothing has pushed yet.
@@ -259,7 +163,7 @@ pub(crate) fn begin<L: Lanes>(bundle: &mut Bundle, velocities: &[Row], [margin, 
         let substep = L::splat(1.0 / rate);
         let horizon = line::<L>(bundle, field::HORIZON, part);
         let never = L::splat(-1e30);
-        for point in 0..bundle.points {
+        for point in 0..bundle.points.min(POINTS) {
             let at = |line: usize| field::of_point(point, line);
             let separation = line::<L>(bundle, at(field::SEPARATION), part);
             let closing = separation * L::splat(-rate);
@@ -267,12 +171,8 @@ pub(crate) fn begin<L: Lanes>(bundle: &mut Bundle, velocities: &[Row], [margin, 
             let least = L::select_greater(separation, horizon, [never, least]);
             least.store(&mut bundle.lines[at(field::LEAST)], part);
         }
-        let turning = |arm: usize, roundness: L| {
-            let arm = vector::<L>(bundle, arm, part);
-            Vector::new(arm.x, arm.y, arm.z + roundness)
-        };
-        let arm_a = turning(field::FRICTION_ARM_A, -line::<L>(bundle, field::ROUNDNESS, part));
-        let arm_b = turning(field::FRICTION_ARM_B, line::<L>(bundle, field::ROUNDNESS + 1, part));
+        let arms = [vector(bundle, field::FRICTION_ARM_A, part), vector(bundle, field::FRICTION_ARM_B, part)];
+        let [arm_a, arm_b] = turning(bundle, arms, part);
         let swing = (swing(spin_b, arm_b) - swing(spin_a, arm_a)).scaled(substep);
         swing.x.store(&mut bundle.lines[field::SWING], part);
         swing.y.store(&mut bundle.lines[field::SWING + 1], part);
@@ -283,7 +183,10 @@ pub(crate) fn begin<L: Lanes>(bundle: &mut Bundle, velocities: &[Row], [margin, 
 #[inline(always)]
 pub(crate) fn resume<L: Lanes>(bundle: &Bundle, velocities: &mut [Row]) {
     for part in 0..LANES / L::WIDTH {
-        let impulses = field::IMPULSES.map(|impulse| line(bundle, impulse, part));
+        let mut impulses = [L::splat(0.0); field::ROWS];
+        for (row, impulse) in impulses.iter_mut().enumerate() {
+            *impulse = line(bundle, field::IMPULSES[row], part);
+        }
         apply::<L>(bundle, velocities, &impulses, part);
     }
 }
@@ -294,32 +197,33 @@ fn swing<L: Lanes>(spin: Vector<L>, arm: Vector<L>) -> Vector<L> {
     spin.scaled(spin.dot(arm)) - arm.scaled(spin.dot(spin))
 }
 
+/// Means of the velocities before and after, linear and angular, contact frame.
+#[inline(always)]
+fn mean<L: Lanes>(frame: &Frame<L>, [before, after]: [&[Row]; 2], indices: &[u32]) -> (Vector<L>, Vector<L>) {
+    let (before, after) = (L::gather(before, indices), L::gather(after, indices));
+    let (linear, angular) = (linear(&before) + linear(&after), angular(&before) + angular(&after));
+    (frame.inward(linear).scaled(L::splat(0.5)), frame.inward(angular).scaled(L::splat(0.5)))
+}
+
 /// The work (J) that the impulses of each lane do on bodies that get from the velocities `before` to those `after`.
 #[inline(always)]
 pub(crate) fn work<L: Lanes>(bundle: &Bundle, before: &[Row], after: &[Row]) -> Line {
     let mut work = Line::ZERO;
     for part in 0..LANES / L::WIDTH {
         let frame = Frame::<L>::load(bundle, part);
-        let mean = |indices: &[u32]| {
-            let (before, after) = (L::gather(before, indices), L::gather(after, indices));
-            let (linear, angular) = (linear(&before) + linear(&after), angular(&before) + angular(&after));
-            (frame.inward(linear).scaled(L::splat(0.5)), frame.inward(angular).scaled(L::splat(0.5)))
-        };
-        let (velocity_a, spin_a) = mean(indices(&bundle.a, part, L::WIDTH));
-        let (velocity_b, spin_b) = mean(indices(&bundle.b, part, L::WIDTH));
-        let at = |arm_a: usize, arm_b: usize| {
-            let turning =
-                spin_b.cross(vector(bundle, arm_b, part)) - spin_a.cross(vector(bundle, arm_a, part));
-            velocity_b - velocity_a + turning
-        };
-        let slip = at(field::FRICTION_ARM_A, field::FRICTION_ARM_B);
+        let (velocity_a, spin_a) = mean(&frame, [before, after], indices(&bundle.a, part, L::WIDTH));
+        let (velocity_b, spin_b) = mean(&frame, [before, after], indices(&bundle.b, part, L::WIDTH));
+        let relative = velocity_b - velocity_a;
+        let arms = [vector(bundle, field::FRICTION_ARM_A, part), vector(bundle, field::FRICTION_ARM_B, part)];
+        let slip = relative + (spin_b.cross(arms[1]) - spin_a.cross(arms[0]));
         let mut sum = line::<L>(bundle, field::FRICTION, part) * slip.x
             + line::<L>(bundle, field::FRICTION + 1, part) * slip.y
             + line::<L>(bundle, field::TWIST, part) * (spin_b.z - spin_a.z);
-        for point in 0..bundle.points {
+        for point in 0..bundle.points.min(POINTS) {
             let of = |line: usize| field::of_point(point, line);
-            let parting = at(of(field::ARM_A), of(field::ARM_B)).z;
-            sum = sum + line::<L>(bundle, of(field::IMPULSE), part) * parting;
+            let arms = [vector(bundle, of(field::ARM_A), part), vector(bundle, of(field::ARM_B), part)];
+            let parting = relative + (spin_b.cross(arms[1]) - spin_a.cross(arms[0]));
+            sum = sum + line::<L>(bundle, of(field::IMPULSE), part) * parting.z;
         }
         sum.store(&mut work, part);
     }
@@ -345,172 +249,4 @@ fn apply<L: Lanes>(bundle: &Bundle, velocities: &mut [Row], impulses: &[L; field
     let frame = Frame::<L>::load(bundle, part);
     let pushed = Pair::gather(bundle, velocities, part).push(&frame, impulse, [turn_a, turn_b]);
     scatter(bundle, pushed, velocities, part);
-}
-
-/// One sweep over a bundle: each point, then the twist, then friction.
-#[inline(always)]
-pub(crate) fn sweep<L: Lanes>(bundle: &mut Bundle, velocities: &mut [Row]) {
-    for part in 0..LANES / L::WIDTH {
-        let frame = Frame::<L>::load(bundle, part);
-        let pair = Pair::gather(bundle, velocities, part);
-        let mut motion = Motion::new(&frame, &pair);
-        for point in 0..bundle.points {
-            motion.solve_normal(bundle, &pair, (point, part));
-        }
-        motion.finish_normals(&pair);
-        motion.solve_twist(bundle, &pair, part);
-        motion.solve_friction(bundle, part);
-        (motion.residual * pair.inverse_mass()).store(&mut bundle.lines[field::RESIDUAL], part);
-        let pushed = pair.push(&frame, motion.impulse, [motion.turn_a, motion.turn_b]);
-        scatter(bundle, pushed, velocities, part);
-    }
-}
-
-/// One sweep over the normals alone: with displacements in place of velocities, it pushes overlaps out.
-#[inline(always)]
-pub(crate) fn sweep_normals<L: Lanes>(bundle: &mut Bundle, displacements: &mut [Row]) {
-    for part in 0..LANES / L::WIDTH {
-        let frame = Frame::<L>::load(bundle, part);
-        let pair = Pair::gather(bundle, displacements, part);
-        let mut motion = Motion::new(&frame, &pair);
-        for point in 0..bundle.points {
-            motion.solve_normal(bundle, &pair, (point, part));
-        }
-        let pushed = pair.push(&frame, motion.impulse, [motion.turn_a, motion.turn_b]);
-        scatter(bundle, pushed, displacements, part);
-    }
-}
-
-/// How the two bodies of each lane move while their rows are solved (contact frame), and what has been given to them.
-struct Motion<L> {
-    /// Linear velocity of `b` against `a`.
-    relative: Vector<L>,
-    spin_a: Vector<L>,
-    spin_b: Vector<L>,
-    /// The impulses of this sweep, and their moments about each centre.
-    impulse: Vector<L>,
-    turn_a: Vector<L>,
-    turn_b: Vector<L>,
-    /// Sum of all points' impulses, and of these times their levers.
-    pressure: L,
-    moment: L,
-    /// The largest change of an impulse.
-    residual: L,
-}
-
-impl<L: Lanes> Motion<L> {
-    #[inline(always)]
-    fn new(frame: &Frame<L>, pair: &Pair<L>) -> Self {
-        let zero = L::splat(0.0);
-        let none = Vector::new(zero, zero, zero);
-        Self {
-            relative: frame.inward(linear(&pair.b) - linear(&pair.a)),
-            spin_a: frame.inward(angular(&pair.a)),
-            spin_b: frame.inward(angular(&pair.b)),
-            impulse: none,
-            turn_a: none,
-            turn_b: none,
-            pressure: zero,
-            moment: zero,
-            residual: zero,
-        }
-    }
-
-    #[inline(always)]
-    fn note(&mut self, change: L) {
-        self.residual = self.residual.max(change).max(-change);
-    }
-
-    #[inline(always)]
-    fn solve_normal(&mut self, bundle: &mut Bundle, pair: &Pair<L>, (point, part): (usize, usize)) {
-        let at = |line: usize| field::of_point(point, line);
-        let (a_x, a_y) =
-            (line::<L>(bundle, at(field::ARM_A), part), line::<L>(bundle, at(field::ARM_A + 1), part));
-        let (b_x, b_y) =
-            (line::<L>(bundle, at(field::ARM_B), part), line::<L>(bundle, at(field::ARM_B + 1), part));
-        let velocity = self.relative.z + (self.spin_b.x * b_y - self.spin_b.y * b_x)
-            - (self.spin_a.x * a_y - self.spin_a.y * a_x);
-        let mass = line::<L>(bundle, at(field::MASS), part);
-        let least = line::<L>(bundle, at(field::LEAST), part);
-        let before = line::<L>(bundle, at(field::IMPULSE), part);
-        let impulse = (before - mass * (velocity - least)).max(L::splat(0.0));
-        impulse.store(&mut bundle.lines[at(field::IMPULSE)], part);
-
-        let change = impulse - before;
-        self.note(change);
-        self.pressure = self.pressure + impulse;
-        self.moment = self.moment + impulse * line::<L>(bundle, at(field::LEVER), part);
-        self.impulse.z = self.impulse.z + change;
-        self.relative.z = self.relative.z + pair.inverse_mass() * change;
-        let (x, y) = (a_y * change, -(a_x * change));
-        let [xx, xy, _, yy, ..] = pair.inverse_inertia_a.0;
-        self.turn_a.x = self.turn_a.x + x;
-        self.turn_a.y = self.turn_a.y + y;
-        self.spin_a.x = self.spin_a.x - (xx * x + xy * y);
-        self.spin_a.y = self.spin_a.y - (xy * x + yy * y);
-        let (x, y) = (b_y * change, -(b_x * change));
-        let [xx, xy, _, yy, ..] = pair.inverse_inertia_b.0;
-        self.turn_b.x = self.turn_b.x + x;
-        self.turn_b.y = self.turn_b.y + y;
-        self.spin_b.x = self.spin_b.x + (xx * x + xy * y);
-        self.spin_b.y = self.spin_b.y + (xy * x + yy * y);
-    }
-
-    /// The spin about the normal, which the rows of the normals leave alone until here.
-    #[inline(always)]
-    fn finish_normals(&mut self, pair: &Pair<L>) {
-        let [_, _, xz, _, yz, _] = pair.inverse_inertia_a.0;
-        self.spin_a.z = self.spin_a.z - (xz * self.turn_a.x + yz * self.turn_a.y);
-        let [_, _, xz, _, yz, _] = pair.inverse_inertia_b.0;
-        self.spin_b.z = self.spin_b.z + (xz * self.turn_b.x + yz * self.turn_b.y);
-    }
-
-    #[inline(always)]
-    fn solve_twist(&mut self, bundle: &mut Bundle, pair: &Pair<L>, part: usize) {
-        let before = line::<L>(bundle, field::TWIST, part);
-        let wanted = before - line::<L>(bundle, field::TWIST_MASS, part) * (self.spin_b.z - self.spin_a.z);
-        let most = line::<L>(bundle, field::STATIC_FRICTION, part) * self.moment;
-        let sliding = line::<L>(bundle, field::DYNAMIC_FRICTION, part) * self.moment;
-        let kept = wanted.min(sliding).max(-sliding);
-        let twist = L::select_greater(wanted.max(-wanted), most, [kept, wanted]);
-        twist.store(&mut bundle.lines[field::TWIST], part);
-        let change = twist - before;
-        self.turn_a.z = self.turn_a.z + change;
-        self.turn_b.z = self.turn_b.z + change;
-        let [_, _, xz, _, yz, zz] = pair.inverse_inertia_a.0;
-        self.spin_a = self.spin_a - Vector::new(xz, yz, zz).scaled(change);
-        let [_, _, xz, _, yz, zz] = pair.inverse_inertia_b.0;
-        self.spin_b = self.spin_b + Vector::new(xz, yz, zz).scaled(change);
-    }
-
-    /// Takes the slip away as far as the cone allows.
-    ///
-    /// The correction is along the slip itself, over the largest response in the tangent plane: were it `K⁻¹·slip`, a sliding
-    /// contact would settle on a force that is askew of its slip, which no surface exerts (de Saxcé and Feng 1998).
-    #[inline(always)]
-    fn solve_friction(&mut self, bundle: &mut Bundle, part: usize) {
-        let arm_a = vector::<L>(bundle, field::FRICTION_ARM_A, part);
-        let arm_b = vector::<L>(bundle, field::FRICTION_ARM_B, part);
-        let slip = self.relative + self.spin_b.cross(arm_b) - self.spin_a.cross(arm_a);
-        let mass = line::<L>(bundle, field::FRICTION_MASS, part);
-        let before = [line::<L>(bundle, field::FRICTION, part), line::<L>(bundle, field::FRICTION + 1, part)];
-        let swing = [line::<L>(bundle, field::SWING, part), line::<L>(bundle, field::SWING + 1, part)];
-        let (x, y) = (before[0] - mass * (slip.x + swing[0]), before[1] - mass * (slip.y + swing[1]));
-        let size = (x * x + y * y).sqrt();
-        let most = line::<L>(bundle, field::STATIC_FRICTION, part) * self.pressure;
-        let sliding = line::<L>(bundle, field::DYNAMIC_FRICTION, part) * self.pressure;
-        let (one, tiny) = (L::splat(1.0), L::splat(f32::MIN_POSITIVE));
-        let kept = (sliding / (size + tiny)).min(one);
-        let share = L::select_greater(size, most, [kept, one]);
-        let (x, y) = (x * share, y * share);
-        x.store(&mut bundle.lines[field::FRICTION], part);
-        y.store(&mut bundle.lines[field::FRICTION + 1], part);
-        let change = Vector::new(x - before[0], y - before[1], L::splat(0.0));
-        self.note(change.x);
-        self.note(change.y);
-        self.impulse.x = change.x;
-        self.impulse.y = change.y;
-        self.turn_a = self.turn_a + arm_a.cross(change);
-        self.turn_b = self.turn_b + arm_b.cross(change);
-    }
 }

@@ -15,12 +15,9 @@ pub(crate) use agree::Effort;
 pub(crate) use wrench::Wrench;
 
 use super::bundle::{Bundle, Lane, POINTS, field};
-use super::contact;
-use super::lanes::{LANES, Line, Portable, Row};
+use super::kernels::{Begin, Measure, Resume, SweepNormals, Work};
+use super::lanes::{LANES, Line, Machine, Row};
 use islands::Islands;
-
-/// The lanes that a plain build computes with.
-type Wide = Portable<4>;
 
 /// Names a contact as long as it lasts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -77,9 +74,15 @@ pub(crate) struct Graph {
     places: Vec<Option<Place>>,
     free: Vec<u32>,
     islands: Islands,
+    machine: Machine,
 }
 
 impl Graph {
+    /// No contacts, to be solved with these instructions.
+    pub fn new(machine: Machine) -> Self {
+        Self { machine, ..Self::default() }
+    }
+
     /// Adds a contact between the bodies of two rows; `movable` tells which of them an impulse can move.
     pub fn insert(&mut self, rows: [u32; 2], movable: [bool; 2], lane: &Lane) -> ContactId {
         let kind = if movable == [true, true] { MOVING } else { FIXED };
@@ -186,6 +189,13 @@ impl Graph {
         (MOVING..count).step_by(KINDS).chain((FIXED..count).step_by(KINDS))
     }
 
+    /// One colour after the other.
+    fn each_color(&mut self, mut act: impl FnMut(Machine, &mut [Bundle])) {
+        for color in self.order() {
+            act(self.machine, &mut self.colors[color].bundles);
+        }
+    }
+
     fn each_bundle(&mut self, mut act: impl FnMut(&mut Bundle)) {
         for color in self.order() {
             self.colors[color].bundles.iter_mut().for_each(&mut act);
@@ -194,7 +204,7 @@ impl Graph {
 
     /// Finds all separations from the bodies' drifts.
     pub fn measure(&mut self, drifts: &[Row]) {
-        self.each_bundle(|bundle| contact::measure::<Wide>(bundle, drifts));
+        self.each_color(|machine, bundles| machine.run(Measure { bundles, drifts }));
     }
 
     /// Lets the impulses of the last substep act again, where they are a good start.
@@ -204,8 +214,8 @@ impl Graph {
     pub fn begin(&mut self, velocities: &mut [Row], [margin, lively]: [f64; 2], substep: f64) {
         let limits = [margin as f32, (1.0 / substep) as f32];
         let before = velocities.to_vec();
-        self.each_bundle(|bundle| contact::begin::<Wide>(bundle, velocities, limits));
-        self.each_bundle(|bundle| contact::resume::<Wide>(bundle, velocities));
+        self.each_color(|machine, bundles| machine.run(Begin { bundles, velocities, limits }));
+        self.each_color(|machine, bundles| machine.run(Resume { bundles, velocities }));
         self.find_islands(velocities.len());
         self.refuse_gains(&before, velocities, lively);
     }
@@ -214,10 +224,13 @@ impl Graph {
     /// these would be a worse start than none.
     fn refuse_gains(&mut self, before: &[Row], velocities: &mut [Row], lively: f64) {
         let mut gains = vec![0.0; self.islands.sizes.len()];
-        for bundle in self.colors.iter().flat_map(|color| &color.bundles) {
-            for (lane, work) in contact::work::<Wide>(bundle, before, velocities).0.into_iter().enumerate() {
-                if let Some(island) = self.island_of(bundle, lane) {
-                    gains[island] += f64::from(work);
+        for Color { bundles, .. } in &self.colors {
+            let work = self.machine.run(Work { bundles, before, after: velocities });
+            for (bundle, work) in bundles.iter().zip(work) {
+                for (lane, work) in work.0.into_iter().enumerate() {
+                    if let Some(island) = self.island_of(bundle, lane) {
+                        gains[island] += f64::from(work);
+                    }
                 }
             }
         }
@@ -263,7 +276,7 @@ impl Graph {
             }
         });
         for _ in 0..PUSH_SWEEPS {
-            self.each_bundle(|bundle| contact::sweep_normals::<Wide>(bundle, displacements));
+            self.each_color(|machine, bundles| machine.run(SweepNormals { bundles, displacements }));
         }
         let wrenches = self.wrenches(displacements);
         let mut impulses = impulses.into_iter();

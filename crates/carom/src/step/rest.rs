@@ -35,6 +35,7 @@ use crate::impacts::time_of_impact::{Approach, RestLaw};
 use crate::math::DVec3;
 use crate::solver::bundle::field;
 use crate::solver::graph::Graph;
+use crate::solver::lanes::Machine;
 use crate::solver::rows::Rows;
 use crate::step::motion::advance;
 use crate::step::pairs::{Pair, Pairs, Support};
@@ -59,9 +60,10 @@ pub(crate) struct Span {
 }
 
 impl Rest {
-    pub fn new() -> Self {
+    /// Nothing rests yet; what will is solved with the instructions of `machine`.
+    pub fn new(machine: Machine) -> Self {
         Self {
-            graph: Graph::default(),
+            graph: Graph::new(machine),
             rows: Rows::new(),
             resting: Vec::new(),
             crowds: Crowds::default(),

@@ -7,10 +7,10 @@
 //! Conjugate gradients over sweeps (Silcowitz, Niebe and Erleben 2010) carry further, but overshoot where many contacts come
 //! and go: piles that plain sweeps bring to rest went on shaking with them.
 
-use super::{Graph, Wide};
-use crate::solver::bundle::field;
-use crate::solver::contact;
+use super::Graph;
+use crate::solver::bundle::{Bundle, field};
 use crate::solver::direct::{self, Mobility};
+use crate::solver::kernels::{Sweep, SweepSome};
 use crate::solver::lanes::{LANES, Row};
 
 /// How far islands are swept.
@@ -45,7 +45,7 @@ impl Graph {
         mobility: impl Fn(u32) -> Option<Mobility>,
     ) {
         for _ in 0..effort.sweeps {
-            self.each_bundle(|bundle| contact::sweep::<Wide>(bundle, velocities));
+            self.each_color(|machine, bundles| machine.run(Sweep { bundles, velocities }));
         }
         self.find_islands(velocities.len());
         // Islands that are about to rest: no body moves fast against another.
@@ -73,20 +73,23 @@ impl Graph {
         loop {
             let open = self.open_bodies(velocities.len(), effort.agreement, |island| sweeps < most[island]);
             let is_open = self.with_neighbors(&open);
-            let places: Vec<(usize, usize)> = self
+            let concerned =
+                |bundle: &Bundle| bundle.a.iter().chain(&bundle.b).any(|&row| is_open[row as usize]);
+            let chosen: Vec<(usize, Vec<usize>)> = self
                 .order()
-                .flat_map(|color| (0..self.colors[color].bundles.len()).map(move |bundle| (color, bundle)))
-                .filter(|&(color, bundle)| {
-                    let bundle = &self.colors[color].bundles[bundle];
-                    bundle.a.iter().chain(&bundle.b).any(|&row| is_open[row as usize])
+                .map(|color| {
+                    let bundles = self.colors[color].bundles.iter().enumerate();
+                    (color, bundles.filter(|(_, it)| concerned(it)).map(|(index, _)| index).collect())
                 })
+                .filter(|(_, chosen): &(usize, Vec<usize>)| !chosen.is_empty())
                 .collect();
-            if places.is_empty() {
+            if chosen.is_empty() {
                 return;
             }
             for _ in 0..ROUND {
-                for &(color, bundle) in &places {
-                    contact::sweep::<Wide>(&mut self.colors[color].bundles[bundle], velocities);
+                for (color, chosen) in &chosen {
+                    let bundles = &mut self.colors[*color].bundles;
+                    self.machine.run(SweepSome { bundles, chosen, velocities });
                 }
             }
             sweeps += ROUND;

@@ -4,11 +4,11 @@
 //! momentum out of nothing, whoever gives an impulse to two bodies does it at one place in the world: seen from the *mean
 //! centre* between both, as the arms are.
 
-use super::{ContactId, Graph, Wide};
+use super::{ContactId, Graph};
 use crate::math::DVec3;
-use crate::solver::bundle::{Bundle, field};
+use crate::solver::bundle::{Bundle, POINTS, field};
 use crate::solver::contact::{line, vector};
-use crate::solver::lanes::{LANES, Lanes, Line, Row, Vector, WRITABLE};
+use crate::solver::lanes::{Kernel, LANES, Lanes, Line, Row, Vector, WRITABLE};
 
 /// What a contact exerts on its second body, and reversed on its first.
 #[derive(Clone, Copy, Debug)]
@@ -59,6 +59,13 @@ const FRICTION: usize = 3;
 const FRICTION_MOMENT: usize = 5;
 const SUMS: usize = 8;
 
+/// From the mean centre to where both arms end.
+#[inline(always)]
+fn mean<L: Lanes>(bundle: &Bundle, [arm_a, arm_b]: [usize; 2], (share, part): (L, usize)) -> Vector<L> {
+    let (arm_a, arm_b) = (vector::<L>(bundle, arm_a, part), vector::<L>(bundle, arm_b, part));
+    arm_a.scaled(L::splat(1.0) - share) + arm_b.scaled(share)
+}
+
 /// Adds up what each lane exerts on its second body, about the mean centre.
 #[inline(always)]
 fn sum_up<L: Lanes>(bundle: &Bundle) -> [Line; SUMS] {
@@ -66,15 +73,11 @@ fn sum_up<L: Lanes>(bundle: &Bundle) -> [Line; SUMS] {
     let zero = L::splat(0.0);
     for part in 0..LANES / L::WIDTH {
         let share = line::<L>(bundle, field::SHARE, part);
-        let mean = |arm_a: usize, arm_b: usize| {
-            let (arm_a, arm_b) = (vector::<L>(bundle, arm_a, part), vector::<L>(bundle, arm_b, part));
-            arm_a.scaled(L::splat(1.0) - share) + arm_b.scaled(share)
-        };
         let mut pressure = Vector::new(zero, zero, zero);
-        for point in 0..bundle.points {
+        for point in 0..bundle.points.min(POINTS) {
             let at = |line: usize| field::of_point(point, line);
             let impulse = line::<L>(bundle, at(field::IMPULSE), part);
-            let arm = mean(at(field::ARM_A), at(field::ARM_B));
+            let arm = mean(bundle, [at(field::ARM_A), at(field::ARM_B)], (share, part));
             pressure = pressure + Vector::new(arm.y * impulse, -(arm.x * impulse), impulse);
         }
         pressure.z.store(&mut sums[PRESSURE], part);
@@ -83,8 +86,8 @@ fn sum_up<L: Lanes>(bundle: &Bundle) -> [Line; SUMS] {
 
         let (x, y) = (line::<L>(bundle, field::FRICTION, part), line::<L>(bundle, field::FRICTION + 1, part));
         let twist = Vector::new(zero, zero, line(bundle, field::TWIST, part));
-        let moment =
-            mean(field::FRICTION_ARM_A, field::FRICTION_ARM_B).cross(Vector::new(x, y, zero)) + twist;
+        let arm = mean(bundle, [field::FRICTION_ARM_A, field::FRICTION_ARM_B], (share, part));
+        let moment = arm.cross(Vector::new(x, y, zero)) + twist;
         x.store(&mut sums[FRICTION], part);
         y.store(&mut sums[FRICTION + 1], part);
         moment.x.store(&mut sums[FRICTION_MOMENT], part);
@@ -94,13 +97,32 @@ fn sum_up<L: Lanes>(bundle: &Bundle) -> [Line; SUMS] {
     sums
 }
 
+/// [`sum_up`], of many.
+struct SumUp<'a> {
+    bundles: &'a [Bundle],
+}
+
+impl Kernel for SumUp<'_> {
+    type Output = Vec<[Line; SUMS]>;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) -> Self::Output {
+        let mut sums = Vec::with_capacity(self.bundles.len());
+        for bundle in self.bundles {
+            sums.push(sum_up::<L>(bundle));
+        }
+        sums
+    }
+}
+
 impl Graph {
     /// What all contacts exert that exert anything on a body of `rows` that can be moved.
     pub fn wrenches(&self, rows: &[Row]) -> Vec<Wrench> {
         let mut wrenches = Vec::new();
         for color in self.order().map(|color| &self.colors[color]) {
-            for (bundle, contacts) in color.bundles.iter().zip(color.contacts.chunks(LANES)) {
-                let sums = sum_up::<Wide>(bundle);
+            let sums = self.machine.run(SumUp { bundles: &color.bundles });
+            let lanes = color.contacts.chunks(LANES);
+            for ((bundle, sums), contacts) in color.bundles.iter().zip(sums).zip(lanes) {
                 for (lane, &contact) in contacts.iter().enumerate() {
                     let sides = [bundle.a[lane] as usize, bundle.b[lane] as usize];
                     let sum = sums.map(|line| line.0[lane]);

@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::solver::bundle::field;
-use crate::solver::contact::{begin, measure, resume, sweep_normals};
-use crate::solver::lanes::{LANES, Lanes};
+use crate::solver::contact::{begin, measure, resume, sweep_normals, work};
+use crate::solver::lanes::{InstructionSet, Kernel, LANES, Lanes, Line, Machine};
 
 /// A full bundle between 16 bodies and the world, a `share` of whose lanes is empty.
 fn bundle(random: &mut Random, share: f64) -> (Problem, Bundle) {
@@ -32,6 +32,7 @@ fn bundle(random: &mut Random, share: f64) -> (Problem, Bundle) {
 }
 
 /// Everything that the kernels do, one after the other: the bits of the bundle and of all rows.
+#[inline(always)]
 fn run<L: Lanes>(bundle: &Bundle, rows: &[Row], drifts: &[Row]) -> Vec<u32> {
     let (mut bundle, mut rows) = (bundle.clone(), rows.to_vec());
     let mut displacements = rows.clone();
@@ -42,9 +43,26 @@ fn run<L: Lanes>(bundle: &Bundle, rows: &[Row], drifts: &[Row]) -> Vec<u32> {
         sweep::<L>(&mut bundle, &mut rows);
     }
     sweep_normals::<L>(&mut bundle, &mut displacements);
-    let lines = bundle.lines.iter().flat_map(|line| line.0);
+    let work = work::<L>(&bundle, &displacements, &rows);
+    let lines = bundle.lines.iter().chain([&work]).flat_map(|line| line.0);
     let rows = rows.iter().chain(&displacements).flat_map(|row| row.0);
     lines.chain(rows).map(f32::to_bits).collect()
+}
+
+/// [`run`] in a given machine's lanes.
+struct Run<'a> {
+    bundle: &'a Bundle,
+    rows: &'a [Row],
+    drifts: &'a [Row],
+}
+
+impl Kernel for Run<'_> {
+    type Output = Vec<u32>;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) -> Vec<u32> {
+        run::<L>(self.bundle, self.rows, self.drifts)
+    }
 }
 
 fn drifts(random: &mut Random) -> Vec<Row> {
@@ -58,6 +76,9 @@ fn drifts(random: &mut Random) -> Vec<Row> {
 #[test]
 fn all_widths_give_the_same_bits() {
     let mut random = Random(21);
+    let (sets, missing): (Vec<_>, Vec<_>) =
+        InstructionSet::ALL.into_iter().partition(|set| set.is_available());
+    missing.iter().for_each(|set| println!("{set:?}: not tested, this machine does not have it"));
     for _ in 0..200 {
         let (problem, bundle) = bundle(&mut random, 0.2);
         let rows = problem.rows();
@@ -66,6 +87,10 @@ fn all_widths_give_the_same_bits() {
         assert_eq!(narrow, run::<Portable<2>>(&bundle, &rows, &drifts));
         assert_eq!(narrow, run::<Portable<4>>(&bundle, &rows, &drifts));
         assert_eq!(narrow, run::<Portable<8>>(&bundle, &rows, &drifts));
+        for &set in &sets {
+            let work = Run { bundle: &bundle, rows: &rows, drifts: &drifts };
+            assert_eq!(narrow, Machine::new(set).run(work), "{set:?}");
+        }
     }
 }
 
@@ -105,6 +130,50 @@ fn empty_lanes_change_nothing() {
         }
         let before = run::<Portable<4>>(&Bundle::EMPTY, &rows, &drifts);
         let unchanged: Vec<u32> = rows.iter().chain(&rows).flat_map(|row| row.0).map(f32::to_bits).collect();
-        assert_eq!(before[field::COUNT * LANES..], unchanged);
+        assert_eq!(before[(field::COUNT + 1) * LANES..], unchanged);
+    }
+}
+
+/// What is neither greater nor less, one by one: the second one is taken, zeros keep their signs.
+struct Odd;
+
+impl Kernel for Odd {
+    type Output = Vec<u32>;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) -> Vec<u32> {
+        let values = [0.0, -0.0, 1.0, -1.0, f32::NAN, f32::INFINITY, f32::MIN_POSITIVE, 1e-42];
+        let mut results = Vec::new();
+        for left in values {
+            for right in values {
+                let (one, other) = (L::splat(left), L::splat(right));
+                let answers = [
+                    one.max(other),
+                    one.min(other),
+                    L::select_greater(one, other, [L::splat(1.0), L::splat(2.0)]),
+                    -one * other,
+                    other / one,
+                    one.sqrt() - other,
+                ];
+                for answer in answers {
+                    let mut line = Line::ZERO;
+                    for part in 0..LANES / L::WIDTH {
+                        answer.store(&mut line, part);
+                    }
+                    // Not a number is not a number, whatever its sign.
+                    results
+                        .extend(line.0.map(|value| if value.is_nan() { u32::MAX } else { value.to_bits() }));
+                }
+            }
+        }
+        results
+    }
+}
+
+#[test]
+fn odd_numbers_are_treated_alike() {
+    let reference = Odd.run::<Portable<1>>();
+    for set in InstructionSet::ALL.into_iter().filter(|set| set.is_available()) {
+        assert_eq!(reference, Machine::new(set).run(Odd), "{set:?}");
     }
 }
