@@ -146,12 +146,16 @@ struct Round<'a> {
     negligible: f64,
 }
 
-/// What a spot's impulses do to its own point.
+/// What a spot's impulses do to its own point and to its two bodies.
 struct Row {
-    /// Speed along the normal before, m/s.
+    /// Speed along the normal before, and the least afterwards, m/s.
     before: f64,
-    /// K: from an impulse at the point to the change of velocity there, 1/kg.
-    response: DMat3,
+    wanted: f64,
+    /// What a unit impulse along the normal changes that speed by, 1/kg.
+    per_impulse: f64,
+    /// What it changes the two bodies' velocities by, and the moments of the normal that a spin is measured with.
+    gains: [Velocity; 2],
+    moments: [DVec3; 2],
     /// The most that an impulse across the normal changes the velocity across it, 1/kg.
     yielding: f64,
 }
@@ -166,9 +170,17 @@ impl Row {
         let (bend_first, bend_second) = (response * first, response * second);
         let mean = 0.5 * (first.dot(bend_first) + second.dot(bend_second));
         let half = 0.5 * (first.dot(bend_first) - second.dot(bend_second));
+        let before = (b.velocity.at(b.arm) - a.velocity.at(a.arm)).dot(normal);
+        let moments = [-a.arm.cross(normal), b.arm.cross(normal)];
         Row {
-            before: (b.velocity.at(b.arm) - a.velocity.at(a.arm)).dot(normal),
-            response,
+            before,
+            wanted: spot.wanted(before),
+            per_impulse: normal.dot(response * normal),
+            gains: [
+                Velocity { linear: -normal / a.mass, angular: a.inverse_inertia * moments[0] },
+                Velocity { linear: normal / b.mass, angular: b.inverse_inertia * moments[1] },
+            ],
+            moments,
             yielding: mean + half.hypot(first.dot(bend_second)),
         }
     }
@@ -190,28 +202,33 @@ impl<'a> Round<'a> {
         self.spots[index].velocity(|mover| self.velocities[mover])
     }
 
-    /// Gives spot `index` a further impulse, of which `along` is the part along the normal.
-    fn strike(&mut self, index: usize, along: f64, across: DVec3) {
-        let spot = &self.spots[index];
-        self.blows[index].normal += along;
-        self.blows[index].tangent += across;
-        push(self.movers, &mut self.velocities, spot, along * spot.contact.normal + across);
+    /// The speed of spot `index` along its normal, m/s.
+    fn speed(&self, index: usize) -> f64 {
+        let (spot, row) = (&self.spots[index], &self.rows[index]);
+        let [a, b] = spot.movers.map(|mover| &self.velocities[mover]);
+        (b.linear - a.linear).dot(spot.contact.normal)
+            + a.angular.dot(row.moments[0])
+            + b.angular.dot(row.moments[1])
     }
 
     /// The seed's formula for one spot among others; how much it changes its speed, m/s.
     fn push_along_normal(&mut self, index: usize) -> f64 {
         let (spot, row) = (&self.spots[index], &self.rows[index]);
-        let normal = spot.contact.normal;
-        let per_impulse = normal.dot(row.response * normal);
-        if per_impulse <= 0.0 {
+        if row.per_impulse <= 0.0 {
             return 0.0;
         }
-        let lack = spot.wanted(row.before) - self.velocity(index).dot(normal);
         let old = self.blows[index].normal;
-        let new = old + lack / per_impulse;
+        let new = old + (row.wanted - self.speed(index)) / row.per_impulse;
         let new = if spot.pulls { new } else { new.max(0.0) };
-        self.strike(index, new - old, DVec3::ZERO);
-        (new - old).abs() * per_impulse
+        let change = new - old;
+        if change != 0.0 {
+            self.blows[index].normal = new;
+            for (&mover, gain) in spot.movers.iter().zip(&row.gains) {
+                self.velocities[mover].linear += change * gain.linear;
+                self.velocities[mover].angular += change * gain.angular;
+            }
+        }
+        change.abs() * row.per_impulse
     }
 
     /// Step 1.
@@ -290,9 +307,12 @@ impl<'a> Round<'a> {
         let limit = fault::friction(spot.contact.dynamic_friction) * pressed;
         let new = if sticks { ending } else { ending.clamp_length_max(limit) };
         self.blows[index].sticks = sticks;
-        let changed = row.yielding * (new - old).length();
-        self.strike(index, 0.0, new - old);
-        changed
+        let change = new - old;
+        if change != DVec3::ZERO {
+            self.blows[index].tangent = new;
+            push(self.movers, &mut self.velocities, spot, change);
+        }
+        row.yielding * change.length()
     }
 }
 

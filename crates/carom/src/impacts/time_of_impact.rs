@@ -87,18 +87,7 @@ impl<'a> Approach<'a> {
     pub fn of(bodies: &'a Bodies, keys: (u32, u32), law: RestLaw) -> Option<Self> {
         let (a, b) = (bodies.collider(keys.0)?, bodies.collider(keys.1)?);
         let origin = bodies.center_pose(if a.row == WORLD_ROW { b } else { a }).position;
-        let own = |shape: &Shape| {
-            matches!(
-                shape,
-                Shape::Sphere { .. }
-                    | Shape::Cuboid { .. }
-                    | Shape::Capsule { .. }
-                    | Shape::Plane
-                    | Shape::Hull(_)
-            )
-        };
-        let accuracy = if own(&a.shape) && own(&b.shape) { OWN_ACCURACY } else { PARRY_ACCURACY };
-        let tolerance = accuracy * a.reach.min(b.reach);
+        let tolerance = tolerance(a, b);
         Some(Self { bodies, keys, a, b, law, origin, tolerance, foreseen: Foreseen::default() })
     }
 
@@ -456,6 +445,22 @@ impl<'a> Approach<'a> {
         }
         closing
     }
+}
+
+/// Separation up to which the surfaces of two colliders count as touching, m.
+pub(crate) fn tolerance(a: &ColliderRow, b: &ColliderRow) -> f64 {
+    let own = |shape: &Shape| {
+        matches!(
+            shape,
+            Shape::Sphere { .. }
+                | Shape::Cuboid { .. }
+                | Shape::Capsule { .. }
+                | Shape::Plane
+                | Shape::Hull(_)
+        )
+    };
+    let accuracy = if own(&a.shape) && own(&b.shape) { OWN_ACCURACY } else { PARRY_ACCURACY };
+    accuracy * a.reach.min(b.reach)
 }
 
 /// How fast `b` leaves `a` at a point, along the normal, m/s. The world's row does not move, wherever its centre may be.
