@@ -287,7 +287,9 @@ fn turn(rotation: DQuat, momentum: DVec3, constants: &Constants, time: f64) -> D
         let about_momentum = rotation_from_vector(momentum * (common * time));
         (about_momentum * axes * *spin * driven * rotor.principal.conjugate()).normalize()
     };
-    if rest == 0.0 {
+    if rest == 0.0 && top == 0.0 {
+        return about(&spin);
+    } else if rest == 0.0 {
         turn_about(&mut spin, &mut local, rotor.top_axis, top * time);
     } else {
         let angle = (rest.abs() + top.abs()) * momentum.length() * time;

@@ -1,5 +1,6 @@
 //! Impacts: when two bodies touch, and what becomes of them.
 
+mod foreseen;
 pub(crate) mod instant;
 pub(crate) mod reflection;
 pub(crate) mod seams;

@@ -97,6 +97,9 @@ pub fn sin_cos(angle: f64) -> (f64, f64) {
 ///
 /// Taylor series after halving `x` below 1/4, then the doubling formula `φ(2x) = φ(x)(1 + e⁻ˣ)/2`.
 pub fn decay_fraction(x: f64) -> f64 {
+    if x == 0.0 {
+        return 1.0;
+    }
     let mut halvings = 0;
     let mut small = x;
     while small > 0.25 && halvings < 64 {

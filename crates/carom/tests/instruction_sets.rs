@@ -163,8 +163,8 @@ fn stack() -> Scene {
 
 /// The hashes of states and events of [pile, mesh, gas, cradle, stack].
 const EXPECTED: [[u64; 2]; 5] = [
-    [0xe1c6_5ca1_f7de_6aa3, 0xaaf2_7abb_569e_0419],
-    [0xb738_8381_6349_3f15, 0x8acb_a22f_588c_22ae],
+    [0x3fb4_76d7_2af5_0bf2, 0x2254_0150_9067_752e],
+    [0xf3d3_cfce_6fb1_aacc, 0x3e85_1ff1_255f_3cd1],
     [0x82e7_4950_5da6_dd2e, 0xcf19_842b_7889_4af9],
     [0xc1e1_fd04_731e_91a0, 0xf840_eec8_201f_e158],
     [0x29e3_9c14_293c_0de8, 0x720f_55f0_58ed_ec5e],

@@ -1,10 +1,10 @@
 //! Bodies that rest on each other, taken together: what is inside them cancels, so only those that hold them can have given anything.
 
-use super::cone::{SHARED_OUT, unexplained};
+use super::cone::{Cone, SHARED_OUT, unexplained};
 use super::law::{Finding, Law, Place, ROUNDING, positive};
 use super::motion::Course;
 use super::near::Pair;
-use super::rest::{Given, Resting};
+use super::rest::{Given, Moments, Resting};
 use super::strike::Party;
 use carom::math::DVec3;
 use carom::{BodyId, Motion};
@@ -62,21 +62,33 @@ impl Resting<'_> {
             gifts += given.impulse.length();
             scale += course.mass * (course.pace().0 + course.gravity.length() * (self.span.1 - self.span.0));
         }
-        let mut cones = Vec::new();
-        for pair in holders {
-            let id = if bodies.contains(&pair.ids[0]) { pair.ids[0] } else { pair.ids[1] };
-            self.add_cones((pair, id), self.span, &[self.span.0, self.span.1], &mut cones);
-        }
         let tolerance = ROUNDING * (scale + gifts);
         let shared_out = if holders.is_empty() { 0.0 } else { SHARED_OUT * got.length() };
         let place = || Place::Bodies(bodies.to_vec(), self.span.1);
-        let error = unexplained(got, &cones, DVec3::ZERO, tolerance);
+        let unexplained = |moments: Moments| {
+            let cones = self.cones_of_holders(bodies, holders, moments);
+            unexplained(got, &cones, DVec3::ZERO, tolerance)
+        };
+        let mut error = unexplained(Moments::Ends);
+        if error > tolerance + shared_out {
+            error = unexplained(Moments::Substeps);
+        }
         let law = Law::GroupMomentum;
         findings.push(Finding { law, place: place(), error, tolerance: tolerance + shared_out });
         if holders.is_empty() {
             findings.push(self.group_spin(&courses, given, tolerance));
         }
         findings.extend(self.group_energy(&courses, holders, given));
+    }
+
+    fn cones_of_holders(&self, bodies: &[BodyId], holders: &[&Pair<'_>], moments: Moments) -> Vec<Cone> {
+        let times = self.times(self.span, moments);
+        let mut cones = Vec::new();
+        for pair in holders {
+            let id = if bodies.contains(&pair.ids[0]) { pair.ids[0] } else { pair.ids[1] };
+            self.add_cones((pair, id), self.span, &times, &mut cones);
+        }
+        cones
     }
 
     fn group_spin(&self, courses: &[&Course], given: &BTreeMap<BodyId, Given>, tolerance: f64) -> Finding {

@@ -27,7 +27,7 @@ pub(super) struct Resting<'a> {
 
 /// When it is looked what touches.
 #[derive(Clone, Copy)]
-enum Moments {
+pub(super) enum Moments {
     /// At both ends of a stretch.
     Ends,
     /// At every substep too: what is fast rolls over whole faces within a step.
@@ -117,15 +117,20 @@ impl<'a> Resting<'a> {
         pair.horizon(self.margin) + ((paces[0] + paces[1]) * self.substep).min(pair.size())
     }
 
-    /// The cones of what may have pushed a body.
-    fn cones(&self, near: &[&Pair<'_>], id: BodyId, span: (f64, f64), moments: Moments) -> Vec<Cone> {
-        let times = match moments {
+    /// When to look within a stretch.
+    pub(super) fn times(&self, span: (f64, f64), moments: Moments) -> Vec<f64> {
+        match moments {
             Moments::Ends => vec![span.0, span.1],
             Moments::Substeps => {
                 let count = ((span.1 - span.0) / self.substep).ceil().max(1.0);
                 (0..=count as usize).map(|k| span.0 + (span.1 - span.0) * k as f64 / count).collect()
             }
-        };
+        }
+    }
+
+    /// The cones of what may have pushed a body.
+    fn cones(&self, near: &[&Pair<'_>], id: BodyId, span: (f64, f64), moments: Moments) -> Vec<Cone> {
+        let times = self.times(span, moments);
         let mut cones = Vec::new();
         for pair in near {
             self.add_cones((pair, id), span, &times, &mut cones);

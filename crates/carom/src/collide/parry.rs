@@ -148,10 +148,12 @@ fn convex_manifold(
     // A triangle seen edge-on does not tell on which side of it the other shape is, and what the surface allows may then lead all
     // through that shape. Such a way is none; another triangle has the contact.
     // Nor is one that leads sideways over a border: the normal is then no triangle's own.
-    let is_own = convex_a.core.flat_directions().into_iter().any(|own| own.dot(normal) > 1.0 - 1e-9);
-    let detour = if is_own { 0.1 } else { 1e-3 };
-    if corrected && candidates.least_separation() < least.gap - radii - detour * size {
-        return None;
+    if corrected {
+        let is_own = convex_a.core.flat_directions().into_iter().any(|own| own.dot(normal) > 1.0 - 1e-9);
+        let detour = if is_own { 0.1 } else { 1e-3 };
+        if candidates.least_separation() < least.gap - radii - detour * size {
+            return None;
+        }
     }
     if !corrected && candidates.least_separation() > least.gap - radii + 1e-6 * size {
         least = axis::on_crest(&convex_a.core, &convex_b.core, &inner, least);

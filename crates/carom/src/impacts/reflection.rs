@@ -19,17 +19,15 @@
 //! lets a pair break away, keeps symmetry, energy, momentum, and only pushes. The weighting for different C_r and the
 //! scaling are ours.
 
+mod friction;
+
 use crate::fault;
 use crate::impulse::{Contact, Resolution, Side, Velocity, resolve};
 use crate::math::{DMat3, DVec3, any_tangent};
 
-/// Sweeps over all contacts of a round: for what acts along the normals, and with friction.
+/// Sweeps over all contacts of a round, which end when they change no speed by more than this share of the fastest.
 const SWEEPS: usize = 400;
-const FRICTION_SWEEPS: usize = 100;
-
-/// The sweeps end when they change no speed by more than this share of the fastest.
 const AGREEMENT: f64 = 1e-14;
-const FRICTION_AGREEMENT: f64 = 1e-10;
 
 /// Impulses to start a round from, and the change of speed (m/s) that is not worth a sweep.
 #[derive(Clone, Copy, Debug)]
@@ -146,10 +144,16 @@ struct Round<'a> {
     negligible: f64,
 }
 
-/// What a spot's impulses do to its own point.
+/// What a spot's impulses do to its own point and to its two bodies.
 struct Row {
-    /// Speed along the normal before, m/s.
+    /// Speed along the normal before, and the least afterwards, m/s.
     before: f64,
+    wanted: f64,
+    /// What a unit impulse along the normal changes that speed by, 1/kg.
+    per_impulse: f64,
+    /// What it changes the two bodies' velocities by, and the moments of the normal that a spin is measured with.
+    gains: [Velocity; 2],
+    moments: [DVec3; 2],
     /// K: from an impulse at the point to the change of velocity there, 1/kg.
     response: DMat3,
     /// K⁻¹, where there is one, kg.
@@ -168,8 +172,17 @@ impl Row {
         let (bend_first, bend_second) = (response * first, response * second);
         let mean = 0.5 * (first.dot(bend_first) + second.dot(bend_second));
         let half = 0.5 * (first.dot(bend_first) - second.dot(bend_second));
+        let before = (b.velocity.at(b.arm) - a.velocity.at(a.arm)).dot(normal);
+        let moments = [-a.arm.cross(normal), b.arm.cross(normal)];
         Row {
-            before: (b.velocity.at(b.arm) - a.velocity.at(a.arm)).dot(normal),
+            before,
+            wanted: spot.wanted(before),
+            per_impulse: normal.dot(response * normal),
+            gains: [
+                Velocity { linear: -normal / a.mass, angular: a.inverse_inertia * moments[0] },
+                Velocity { linear: normal / b.mass, angular: b.inverse_inertia * moments[1] },
+            ],
+            moments,
             response,
             stiffness: inverse_of(&response),
             yielding: mean + half.hypot(first.dot(bend_second)),
@@ -200,28 +213,33 @@ impl<'a> Round<'a> {
         self.spots[index].velocity(|mover| self.velocities[mover])
     }
 
-    /// Gives spot `index` a further impulse, of which `along` is the part along the normal.
-    fn strike(&mut self, index: usize, along: f64, across: DVec3) {
-        let spot = &self.spots[index];
-        self.blows[index].normal += along;
-        self.blows[index].tangent += across;
-        push(self.movers, &mut self.velocities, spot, along * spot.contact.normal + across);
+    /// The speed of spot `index` along its normal, m/s.
+    fn speed(&self, index: usize) -> f64 {
+        let (spot, row) = (&self.spots[index], &self.rows[index]);
+        let [a, b] = spot.movers.map(|mover| &self.velocities[mover]);
+        (b.linear - a.linear).dot(spot.contact.normal)
+            + a.angular.dot(row.moments[0])
+            + b.angular.dot(row.moments[1])
     }
 
     /// The seed's formula for one spot among others; how much it changes its speed, m/s.
     fn push_along_normal(&mut self, index: usize) -> f64 {
         let (spot, row) = (&self.spots[index], &self.rows[index]);
-        let normal = spot.contact.normal;
-        let per_impulse = normal.dot(row.response * normal);
-        if per_impulse <= 0.0 {
+        if row.per_impulse <= 0.0 {
             return 0.0;
         }
-        let lack = spot.wanted(row.before) - self.velocity(index).dot(normal);
         let old = self.blows[index].normal;
-        let new = old + lack / per_impulse;
+        let new = old + (row.wanted - self.speed(index)) / row.per_impulse;
         let new = if spot.pulls { new } else { new.max(0.0) };
-        self.strike(index, new - old, DVec3::ZERO);
-        (new - old).abs() * per_impulse
+        let change = new - old;
+        if change != 0.0 {
+            self.blows[index].normal = new;
+            for (&mover, gain) in spot.movers.iter().zip(&row.gains) {
+                self.velocities[mover].linear += change * gain.linear;
+                self.velocities[mover].angular += change * gain.angular;
+            }
+        }
+        change.abs() * row.per_impulse
     }
 
     /// Step 1.
@@ -251,103 +269,12 @@ impl<'a> Round<'a> {
         }
     }
 
-    /// Adds friction, as much of it as takes energy away and gives none.
-    ///
-    /// From the impulses `j₀` without friction to those with it, `j`, all between them keep to Newton's rule and to the cones, which are
-    /// convex. On the way the energy changes by `a·(d·u₀) + ½a²·(d·Kd)` with `d = j − j₀`; the way ends where this would become positive.
-    fn rub(&mut self) {
-        let (smooth, before) = (self.blows.clone(), self.velocities.clone());
-        for _ in 0..FRICTION_SWEEPS {
-            // Friction last, so that wherever the sweeps end it keeps to the cone of the push that it belongs to.
-            let change = (0..self.spots.len()).map(|index| self.push_and_rub(index)).fold(0.0, f64::max);
-            if change <= (FRICTION_AGREEMENT * self.fastest).max(self.negligible) {
-                break;
-            }
-        }
-        let (mut first, mut second) = (0.0, 0.0);
-        for (index, (spot, blow)) in self.spots.iter().zip(&self.blows).enumerate() {
-            let further = blow.impulse(spot) - smooth[index].impulse(spot);
-            let without = spot.velocity(|mover| before[mover]);
-            first += further.dot(without);
-            second += further.dot(self.velocity(index) - without);
-        }
-        let share = if second > 0.0 { (-2.0 * first / second).clamp(0.0, 1.0) } else { 0.0 };
-        if share < 1.0 {
-            for (blow, smooth) in self.blows.iter_mut().zip(&smooth) {
-                blow.normal = smooth.normal + share * (blow.normal - smooth.normal);
-                blow.tangent *= share;
-                blow.sticks = false;
-            }
-            self.velocities = velocities_after(self.movers, self.spots, &self.blows);
-        }
-    }
-
-    /// Both at one spot among others; how much it changes its velocity, m/s.
-    fn push_and_rub(&mut self, index: usize) -> f64 {
-        self.stick(index).unwrap_or_else(|| {
-            let pushed = self.push_along_normal(index);
-            let rubbed = self.rub_one(index);
-            pushed.max(rubbed).max(self.push_along_cone(index))
-        })
-    }
-
-    /// The impulse that ends the slip and gives the spot its speed, if the cone allows it. Push and friction by turns would come
-    /// near it but slowly where they act on each other: on the tip of what is long and thin.
-    fn stick(&mut self, index: usize) -> Option<f64> {
-        let (spot, row) = (&self.spots[index], &self.rows[index]);
-        let stiffness = row.stiffness.filter(|_| spot.is_rough() && !spot.pulls)?;
-        let normal = spot.contact.normal;
-        let lack = spot.wanted(row.before) * normal - self.velocity(index);
-        let further = stiffness * lack;
-        let blow = &self.blows[index];
-        let along = further.dot(normal);
-        let across = further - along * normal;
-        let (push, friction) = (blow.normal + along, blow.tangent + across);
-        if push <= 0.0 || friction.length() > spot.contact.static_friction * push {
-            return None;
-        }
-        self.blows[index].sticks = true;
-        self.strike(index, along, across);
-        Some(lack.length())
-    }
-
-    /// What slides gets the rest of its push with the friction that belongs to it; how much this changes its speed, m/s.
-    fn push_along_cone(&mut self, index: usize) -> f64 {
-        let (spot, row, blow) = (&self.spots[index], &self.rows[index], &self.blows[index]);
-        if blow.sticks || blow.normal <= 0.0 || blow.tangent == DVec3::ZERO {
-            return 0.0;
-        }
-        let normal = spot.contact.normal;
-        let friction = blow.tangent / blow.normal;
-        let per_impulse = normal.dot(row.response * (normal + friction));
-        if per_impulse <= 0.0 {
-            return 0.0;
-        }
-        let lack = spot.wanted(row.before) - self.velocity(index).dot(normal);
-        let along = (lack / per_impulse).max(-blow.normal);
-        self.strike(index, along, along * friction);
-        lack.abs()
-    }
-
-    /// Friction at one spot among others: it ends the slip if the cone allows it; how much it changes its velocity, m/s.
-    fn rub_one(&mut self, index: usize) -> f64 {
-        let (spot, row) = (&self.spots[index], &self.rows[index]);
-        if !spot.is_rough() || row.yielding <= 0.0 {
-            return 0.0;
-        }
-        let slip = self.velocity(index);
-        let across = slip - slip.dot(spot.contact.normal) * spot.contact.normal;
-        // The step of a gradient: where it slides, what is left points against the slip.
-        let old = self.blows[index].tangent;
-        let ending = old - across / row.yielding;
-        let pressed = self.blows[index].normal.max(0.0);
-        let sticks = ending.length() <= spot.contact.static_friction * pressed;
-        let limit = fault::friction(spot.contact.dynamic_friction) * pressed;
-        let new = if sticks { ending } else { ending.clamp_length_max(limit) };
-        self.blows[index].sticks = sticks;
-        let changed = row.yielding * (new - old).length();
-        self.strike(index, 0.0, new - old);
-        changed
+    /// Gives spot `index` a further impulse, of which `along` is the part along the normal.
+    fn strike(&mut self, index: usize, along: f64, across: DVec3) {
+        let spot = &self.spots[index];
+        self.blows[index].normal += along;
+        self.blows[index].tangent += across;
+        push(self.movers, &mut self.velocities, spot, along * spot.contact.normal + across);
     }
 }
 

@@ -41,6 +41,9 @@ const ALIKE: f64 = 1.0 - 1e-7;
 /// Separations that differ by less than this share of the reach are the same.
 const LEVEL: f64 = 1e-9;
 
+/// Separations are at most so much smaller than distances, as a share of the reach.
+const SLACK: f64 = 1e-6;
+
 /// A side faces more some way than another if its cosine is greater by this.
 const MORE: f64 = 0.01;
 
@@ -183,6 +186,10 @@ impl Seam<'_> {
 
     /// Whether a collider comes into a ball.
     fn meets_ball(&self, collider: &ColliderRow, center: DVec3, radius: f64) -> bool {
+        let body = self.approach.center_at(collider, self.time);
+        if body.distance(center) > radius + (1.0 + SLACK) * collider.reach {
+            return false;
+        }
         let (ball, there) = (Shape::Sphere { radius }, Pose { position: center, ..Pose::IDENTITY });
         let pose = self.approach.pose_at(collider, self.time);
         collide::separation(&ball, &there, &collider.shape, &pose) <= 0.0

@@ -7,7 +7,8 @@
 use crate::bodies::{Bodies, ColliderRow, WORLD_ROW};
 use crate::collide::{self, ContactPoint, Manifold};
 use crate::fault;
-use crate::flight::fly_center;
+use crate::flight::{RigidState, fly_center};
+use crate::impacts::foreseen::Foreseen;
 use crate::impacts::seams::leave_out_idle;
 use crate::impulse::Velocity;
 use crate::math::{DVec3, Pose};
@@ -60,8 +61,7 @@ pub(crate) struct Approach<'a> {
     pub(super) origin: DVec3,
     /// Separation up to which the surfaces count as touching, m.
     tolerance: f64,
-    /// Speed (m/s) below which closing is rounding.
-    noise: f64,
+    foreseen: Foreseen,
 }
 
 /// Where and how fast two colliders close.
@@ -87,32 +87,18 @@ impl<'a> Approach<'a> {
     pub fn of(bodies: &'a Bodies, keys: (u32, u32), law: RestLaw) -> Option<Self> {
         let (a, b) = (bodies.collider(keys.0)?, bodies.collider(keys.1)?);
         let origin = bodies.center_pose(if a.row == WORLD_ROW { b } else { a }).position;
-        let own = |shape: &Shape| {
-            matches!(
-                shape,
-                Shape::Sphere { .. }
-                    | Shape::Cuboid { .. }
-                    | Shape::Capsule { .. }
-                    | Shape::Plane
-                    | Shape::Hull(_)
-            )
-        };
-        let accuracy = if own(&a.shape) && own(&b.shape) { OWN_ACCURACY } else { PARRY_ACCURACY };
+        let tolerance = tolerance(a, b);
+        Some(Self { bodies, keys, a, b, law, origin, tolerance, foreseen: Foreseen::default() })
+    }
+
+    /// Speed (m/s) below which closing is rounding.
+    fn noise(&self) -> f64 {
         let speed = |collider: &ColliderRow| {
-            let state = &bodies.states[collider.row];
-            state.velocity.length()
-                + bodies.constants[collider.row].angular_velocity(state).length() * collider.spin_reach
+            let (state, constants) =
+                (&self.bodies.states[collider.row], &self.bodies.constants[collider.row]);
+            state.velocity.length() + constants.angular_velocity(state).length() * collider.spin_reach
         };
-        Some(Self {
-            bodies,
-            keys,
-            a,
-            b,
-            law,
-            origin,
-            tolerance: accuracy * a.reach.min(b.reach),
-            noise: 1e-9 * (speed(a) + speed(b)) + 1e-12,
-        })
+        1e-9 * (speed(self.a) + speed(self.b)) + 1e-12
     }
 
     /// The two.
@@ -123,6 +109,18 @@ impl<'a> Approach<'a> {
     /// Separation up to which the surfaces count as touching, m.
     pub fn tolerance(&self) -> f64 {
         self.tolerance
+    }
+
+    /// Where the centre of mass of a collider's body is at `time`, relative to the origin.
+    pub(super) fn center_at(&self, collider: &ColliderRow, time: f64) -> DVec3 {
+        if collider.row == WORLD_ROW {
+            return self.bodies.center_pose(collider).position - self.origin;
+        }
+        let (state, row) = (&self.bodies.states[collider.row], collider.row);
+        let flown = time - self.bodies.clocks[row];
+        let influence = &self.bodies.influences[row];
+        let (position, _) = fly_center(state, &self.bodies.constants[row], influence, flown);
+        position - self.origin
     }
 
     /// Where a collider is at `time`, relative to the origin.
@@ -136,10 +134,19 @@ impl<'a> Approach<'a> {
             let (position, _) = fly_center(state, constants, &self.bodies.influences[row], flown);
             Pose::new(position, state.rotation)
         } else {
-            let state = state_at(self.bodies, collider.row, time);
+            let state = self.state_at(collider, time);
             Pose::new(state.position, state.rotation)
         };
         Pose::new(center.position - self.origin, center.rotation).then_local(&collider.local)
+    }
+
+    /// The state of a collider's body at `time` within the step.
+    fn state_at(&self, collider: &ColliderRow, time: f64) -> RigidState {
+        let side = [self.a.row, self.b.row].into_iter().position(|row| row == collider.row);
+        match side {
+            Some(side) => self.foreseen.get(side, time, || state_at(self.bodies, collider.row, time)),
+            None => state_at(self.bodies, collider.row, time),
+        }
     }
 
     /// Distance of the surfaces at `time` within the step, m.
@@ -171,7 +178,7 @@ impl<'a> Approach<'a> {
         let held = |collider: &ColliderRow| self.bodies.influences[collider.row].acceleration;
         let pressing =
             (free(self.a) - free(self.b)).dot(normal).max((held(self.a) - held(self.b)).dot(normal));
-        self.noise.max(0.5 * pressing * self.law.substep)
+        self.noise().max(0.5 * pressing * self.law.substep)
     }
 
     /// Whether the two rest against each other at `time`: they are so near, and close or part so slowly, that what presses
@@ -182,7 +189,7 @@ impl<'a> Approach<'a> {
         let mut manifolds = Vec::new();
         self.manifolds(pairs, time, self.law.contact_margin(), &mut manifolds);
         let motions = if manifolds.is_empty() { return false } else { self.motions(time) };
-        let mut is_near = false;
+        let (mut is_near, noise) = (false, self.noise());
         for manifold in &manifolds {
             let rest_speed = self.rest_speed(manifold.normal);
             let pressing = 2.0 * rest_speed / self.law.substep;
@@ -193,11 +200,11 @@ impl<'a> Approach<'a> {
                 if closing > rest_speed || (gap > self.tolerance && speed_at_touch > rest_speed) {
                     return false;
                 }
-                let passes = fly && gap > self.tolerance && closing.max(rest_speed) <= self.noise;
+                let passes = fly && gap > self.tolerance && closing.max(rest_speed) <= noise;
                 is_near |= contact.separation < -self.law.overlap_left()
                     || (!passes
                         && closing >= -rest_speed
-                        && !(closing <= self.noise && self.parts(contact, manifold.normal)));
+                        && !(closing <= noise && self.parts(contact, manifold.normal)));
             }
         }
         is_near
@@ -225,7 +232,7 @@ impl<'a> Approach<'a> {
     /// Both bodies' centres and velocities at `time`.
     fn motions(&self, time: f64) -> [(DVec3, Velocity); 2] {
         [self.a, self.b].map(|collider| {
-            let state = state_at(self.bodies, collider.row, time);
+            let state = self.state_at(collider, time);
             let angular = self.bodies.constants[collider.row].angular_velocity(&state);
             (state.position, Velocity { linear: state.velocity, angular })
         })
@@ -250,8 +257,8 @@ impl<'a> Approach<'a> {
             let mut fastest: Option<Touch> = None;
             for manifold in manifolds {
                 let rest_speed = self.rest_speed(manifold.normal);
-                let limit =
-                    share_of_limit * if rests { rest_speed.max(self.law.drift_speed()) } else { self.noise };
+                let limit = share_of_limit
+                    * if rests { rest_speed.max(self.law.drift_speed()) } else { self.noise() };
                 for contact in manifold.points() {
                     let contact = ContactPoint { point: contact.point + self.origin, ..*contact };
                     let closing_speed = normal_velocity(&motions, contact.point, manifold.normal);
@@ -438,6 +445,22 @@ impl<'a> Approach<'a> {
         }
         closing
     }
+}
+
+/// Separation up to which the surfaces of two colliders count as touching, m.
+pub(crate) fn tolerance(a: &ColliderRow, b: &ColliderRow) -> f64 {
+    let own = |shape: &Shape| {
+        matches!(
+            shape,
+            Shape::Sphere { .. }
+                | Shape::Cuboid { .. }
+                | Shape::Capsule { .. }
+                | Shape::Plane
+                | Shape::Hull(_)
+        )
+    };
+    let accuracy = if own(&a.shape) && own(&b.shape) { OWN_ACCURACY } else { PARRY_ACCURACY };
+    accuracy * a.reach.min(b.reach)
 }
 
 /// How fast `b` leaves `a` at a point, along the normal, m/s. The world's row does not move, wherever its centre may be.

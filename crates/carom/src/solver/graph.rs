@@ -223,7 +223,12 @@ impl Graph {
     /// Takes back the impulses that act again in those islands in which they do work: all forces of contacts together never do, so that
     /// these would be a worse start than none.
     fn refuse_gains(&mut self, before: &[Row], velocities: &mut [Row], lively: f64) {
-        let mut gains = vec![0.0; self.islands.sizes.len()];
+        let is_lively: Vec<bool> =
+            self.spreads(before).iter().map(|&spread| f64::from(spread) > lively).collect();
+        if !is_lively.contains(&true) {
+            return;
+        }
+        let mut gains = vec![0.0; is_lively.len()];
         for Color { bundles, .. } in &self.colors {
             let work = self.machine.run(Work { bundles, before, after: velocities });
             for (bundle, work) in bundles.iter().zip(work) {
@@ -234,8 +239,8 @@ impl Graph {
                 }
             }
         }
-        for (gain, spread) in gains.iter_mut().zip(self.spreads(before)) {
-            *gain = if f64::from(spread) > lively { *gain } else { 0.0 };
+        for (gain, is_lively) in gains.iter_mut().zip(is_lively) {
+            *gain = if is_lively { *gain } else { 0.0 };
         }
         if gains.iter().all(|&gain| gain <= 0.0) {
             return;

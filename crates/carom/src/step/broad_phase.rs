@@ -116,11 +116,13 @@ impl BroadPhase {
     /// All pairs of colliders that could touch in the next `time` seconds and are allowed to, in order.
     pub fn find_pairs(&mut self, bodies: &Bodies, time: f64) -> Vec<ColliderPair> {
         self.rerouted.clear();
+        let mut reached = Vec::with_capacity(self.moving_keys.len());
         for &key in &self.moving_keys {
             let Some(collider) = bodies.collider(key) else { continue };
-            let bounds = swept_bounds(bodies, collider, time).grown(CLAIM * collider.reach).aabb();
+            let bounds = swept_bounds(bodies, collider, time).grown(CLAIM * collider.reach);
             let margin = MARGIN * collider.reach;
-            self.moving.insert_or_update_partially(bounds, key, margin);
+            self.moving.insert_or_update_partially(bounds.aabb(), key, margin);
+            reached.push((key, bounds));
         }
         self.moving.refit(&mut self.workspace);
         self.moving.optimize_incremental(&mut self.workspace);
@@ -129,10 +131,8 @@ impl BroadPhase {
         self.moving.traverse_bvtt_single_tree::<false>(&mut self.workspace, &mut |a, b| {
             push_pair(bodies, a, b, &mut pairs);
         });
-        for &key in &self.moving_keys {
-            let Some(collider) = bodies.collider(key) else { continue };
-            let bounds = swept_bounds(bodies, collider, time).grown(CLAIM * collider.reach);
-            self.pairs_with_fixed(bodies, key, &bounds, &mut pairs);
+        for (key, bounds) in &reached {
+            self.pairs_with_fixed(bodies, *key, bounds, &mut pairs);
         }
         pairs.sort_unstable();
         pairs

@@ -114,8 +114,8 @@ impl<'a> Events<'a> {
         }
         for index in 0..self.pairs.len() {
             let pair = &self.pairs[index];
-            let is_quiet = pair.rests && self.rest.is_closed(pair);
-            if pair.now.asked_until < span.until && !pair.now.is_sensed && !is_quiet {
+            let is_due = pair.now.asked_until < span.until && !pair.now.is_sensed;
+            if is_due && !(pair.rests && self.rest.is_closed(pair)) {
                 self.ask(index, span);
             }
         }
@@ -144,16 +144,18 @@ impl<'a> Events<'a> {
         pair.now.stamp += 1;
         pair.now.asked_until = until;
         let pair = &self.pairs[index];
+        let may_touch = if pair.rests {
+            self.rest.is_driven(self.bodies, pair, self.law, span)
+        } else {
+            pair.least_separation(self.bodies, until) <= pair.tolerance
+        };
+        if !may_touch {
+            return;
+        }
         let Some(approach) = Approach::of(self.bodies, pair.colliders, self.law) else { return };
         let instant = if pair.rests {
-            if !self.rest.is_driven(self.bodies, pair, self.law, span) {
-                return;
-            }
             approach.next_touch(self.pairs, span.from, until, true)
         } else {
-            if pair.least_separation(self.bodies, until) > approach.tolerance() {
-                return;
-            }
             let separation = approach.separation(span.from);
             let pair = &mut self.pairs[index];
             pair.measured(self.bodies, separation, span.from);

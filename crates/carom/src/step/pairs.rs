@@ -5,6 +5,7 @@
 
 use crate::bodies::{Bodies, WORLD_ROW};
 use crate::collide::Manifold;
+use crate::impacts::time_of_impact::tolerance;
 use crate::material::Surface;
 use crate::report::Feature;
 use crate::solver::graph::ContactId;
@@ -16,6 +17,8 @@ pub(crate) struct Pair {
     pub rows: [usize; 2],
     /// What turns, m: how far a turn by one radian can take a point of each collider.
     pub spin_reach: [f64; 2],
+    /// Separation up to which the surfaces count as touching, m.
+    pub tolerance: f64,
     pub surface: Surface,
     pub sensor: bool,
     /// Whether the pair rests: it has supports then.
@@ -80,6 +83,7 @@ impl Pair {
             colliders,
             rows: [a.row, b.row],
             spin_reach: [a.spin_reach, b.spin_reach],
+            tolerance: tolerance(a, b),
             surface: Surface::between(&a.material, &b.material),
             sensor: a.sensor || b.sensor,
             rests: false,

@@ -122,8 +122,8 @@ impl Rest {
         let margin = law.contact_margin();
         for index in 0..pairs.len() {
             let pair = &pairs[index];
-            let is_idle = !pair.rows.into_iter().any(|row| stirs(bodies, row));
-            if pair.rests || pair.sensor || is_idle || pair.least_separation(bodies, span.from) > margin {
+            let is_near = !pair.rests && !pair.sensor && pair.least_separation(bodies, span.from) <= margin;
+            if !is_near || !pair.rows.into_iter().any(|row| stirs(bodies, row)) {
                 continue;
             }
             let Some(approach) = Approach::of(bodies, pair.colliders, law) else { continue };
@@ -279,6 +279,7 @@ fn stirs(bodies: &Bodies, row: usize) -> bool {
         return false;
     }
     let (state, constants) = (&bodies.states[row], &bodies.constants[row]);
-    let spin = constants.angular_velocity(state);
-    constants.is_movable() || state.velocity != DVec3::ZERO || spin != DVec3::ZERO
+    constants.is_movable()
+        || state.velocity != DVec3::ZERO
+        || constants.angular_velocity(state) != DVec3::ZERO
 }

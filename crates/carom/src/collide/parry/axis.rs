@@ -1,7 +1,10 @@
 //! The direction along which two cores are farthest apart, or least deep in each other.
 
+mod crest;
+
 use super::convex::Core;
-use crate::math::{DVec3, Pose, any_tangent};
+use crate::math::{DVec3, Pose};
+pub(super) use crest::on_crest;
 use parry3d_f64::math::{Pose3, Rot3};
 use parry3d_f64::query::details::contact_support_map_support_map_with_params;
 use parry3d_f64::query::gjk::{self, GJKResult, VoronoiSimplex};
@@ -148,47 +151,6 @@ fn uphill(start: Axis, size: f64, along: &dyn Fn(DVec3) -> Axis) -> Axis {
     }
     // Where nothing was gained the points of GJK are the better ones: these here are corners of their sides.
     if best.gap > start.gap { best } else { start }
-}
-
-/// How far (rad) the best axis may be from where the way uphill ended at a crest.
-const CREST: f64 = 4e-4;
-
-/// The axis of the widest gap near `start`, where curved cores touch at one point: the gap may have a crest there, with a kink
-/// across it. Bisections along the crest, and in each step one across it. The slopes of both sides, so weighted that nothing of
-/// them leads across, give the slope along the crest.
-pub(super) fn on_crest(a: &Core, b: &Core, b_in_a: &Pose, start: Axis) -> Axis {
-    const STEPS: usize = 18;
-    if !a.is_curved() && !b.is_curved() {
-        return start;
-    }
-    let along = |normal: DVec3| along(a, b, b_in_a, normal);
-    let slope_of = |axis: &Axis| (axis.on_b - axis.on_a) - axis.normal * axis.gap;
-    let slope = slope_of(&along(start.normal));
-    let across = slope.normalize_or(any_tangent(start.normal));
-    let onward = start.normal.cross(across);
-    let slope_of = |axis: &Axis| (axis.on_b - axis.on_a) - axis.normal * axis.gap;
-    let wider = |one: Axis, other: Axis| if other.gap > one.gap { other } else { one };
-    // The best place at that angle along the crest, and whether the crest still rises there.
-    let crest_at = |angle: f64| {
-        let at = |beside: f64| along((start.normal + onward * angle + across * beside).normalize());
-        let (mut low, mut high) = ((-CREST, at(-CREST)), (CREST, at(CREST)));
-        for _ in 0..STEPS {
-            let middle = 0.5 * (low.0 + high.0);
-            let found = at(middle);
-            if slope_of(&found).dot(across) > 0.0 { low = (middle, found) } else { high = (middle, found) }
-        }
-        let (left, right) = (slope_of(&low.1), slope_of(&high.1));
-        let rise = left.dot(onward) * -right.dot(across) + right.dot(onward) * left.dot(across);
-        (wider(low.1, high.1), rise > 0.0)
-    };
-    let (mut best, mut low, mut high) = (start, -CREST, CREST);
-    for _ in 0..STEPS {
-        let middle = 0.5 * (low + high);
-        let (found, rises) = crest_at(middle);
-        best = wider(best, found);
-        if rises { low = middle } else { high = middle }
-    }
-    best
 }
 
 /// The best of some likely directions, for when parry finds none.

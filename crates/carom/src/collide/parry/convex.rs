@@ -4,6 +4,8 @@ use crate::hull::Hull;
 use crate::math::{DVec3, sin_cos};
 use crate::report::Feature;
 use crate::shape::Shape;
+use std::f64::consts::TAU;
+use std::sync::LazyLock;
 
 /// All points within `radius` of a core.
 pub(super) struct Convex<'a> {
@@ -248,10 +250,11 @@ fn cuboid_side(half: DVec3, direction: DVec3) -> Outline {
 /// A disc across y as a polygon of [`RIM`] corners that stand still in the shape's frame, so that they are the same ones
 /// from step to step. Numbered from 0 below (`number` 0) and from [`RIM`] above (`number` 1).
 fn disc(y: f64, radius: f64, number: u32) -> Outline {
+    static TURNS: LazyLock<[(f64, f64); RIM]> =
+        LazyLock::new(|| std::array::from_fn(|k| sin_cos(k as f64 * (TAU / RIM as f64))));
     (0..RIM).fold(Outline::new(Feature::Face(number)), |outline, k| {
         // Anticlockwise from outside: from z to x seen from above, the other way from below.
-        let turn = if number == 1 { k } else { RIM - 1 - k };
-        let (sine, cosine) = sin_cos(turn as f64 * (std::f64::consts::TAU / RIM as f64));
+        let (sine, cosine) = TURNS[if number == 1 { k } else { RIM - 1 - k }];
         let name = number * RIM as u32 + k as u32;
         let point = DVec3::new(radius * sine, y, radius * cosine);
         outline.with(point, Feature::Vertex(name), Feature::Edge(name))

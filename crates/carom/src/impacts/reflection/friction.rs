@@ -1,0 +1,112 @@
+//! Friction in a round of reflections.
+
+use super::{Round, velocities_after};
+use crate::fault;
+use crate::math::DVec3;
+
+/// Sweeps over all contacts, which end when they change no velocity by more than this share of the fastest.
+const SWEEPS: usize = 100;
+const AGREEMENT: f64 = 1e-10;
+
+impl Round<'_> {
+    /// Adds friction, as much of it as takes energy away and gives none.
+    ///
+    /// From the impulses `j₀` without friction to those with it, `j`, all between them keep to Newton's rule and to the cones, which are
+    /// convex. On the way the energy changes by `a·(d·u₀) + ½a²·(d·Kd)` with `d = j − j₀`; the way ends where this would become positive.
+    pub(super) fn rub(&mut self) {
+        let (smooth, before) = (self.blows.clone(), self.velocities.clone());
+        for _ in 0..SWEEPS {
+            // Friction last, so that wherever the sweeps end it keeps to the cone of the push that it belongs to.
+            let change = (0..self.spots.len()).map(|index| self.push_and_rub(index)).fold(0.0, f64::max);
+            if change <= (AGREEMENT * self.fastest).max(self.negligible) {
+                break;
+            }
+        }
+        let (mut first, mut second) = (0.0, 0.0);
+        for (index, (spot, blow)) in self.spots.iter().zip(&self.blows).enumerate() {
+            let further = blow.impulse(spot) - smooth[index].impulse(spot);
+            let without = spot.velocity(|mover| before[mover]);
+            first += further.dot(without);
+            second += further.dot(self.velocity(index) - without);
+        }
+        let share = if second > 0.0 { (-2.0 * first / second).clamp(0.0, 1.0) } else { 0.0 };
+        if share < 1.0 {
+            for (blow, smooth) in self.blows.iter_mut().zip(&smooth) {
+                blow.normal = smooth.normal + share * (blow.normal - smooth.normal);
+                blow.tangent *= share;
+                blow.sticks = false;
+            }
+            self.velocities = velocities_after(self.movers, self.spots, &self.blows);
+        }
+    }
+
+    /// Both at one spot among others; how much it changes its velocity, m/s.
+    fn push_and_rub(&mut self, index: usize) -> f64 {
+        self.stick(index).unwrap_or_else(|| {
+            let pushed = self.push_along_normal(index);
+            let rubbed = self.rub_one(index);
+            pushed.max(rubbed).max(self.push_along_cone(index))
+        })
+    }
+
+    /// The impulse that ends the slip and gives the spot its speed, if the cone allows it. Push and friction by turns would come
+    /// near it but slowly where they act on each other: on the tip of what is long and thin.
+    fn stick(&mut self, index: usize) -> Option<f64> {
+        let (spot, row) = (&self.spots[index], &self.rows[index]);
+        let stiffness = row.stiffness.filter(|_| spot.is_rough() && !spot.pulls)?;
+        let normal = spot.contact.normal;
+        let lack = row.wanted * normal - self.velocity(index);
+        let further = stiffness * lack;
+        let blow = &self.blows[index];
+        let along = further.dot(normal);
+        let across = further - along * normal;
+        let (push, friction) = (blow.normal + along, blow.tangent + across);
+        if push <= 0.0 || friction.length() > spot.contact.static_friction * push {
+            return None;
+        }
+        self.blows[index].sticks = true;
+        self.strike(index, along, across);
+        Some(lack.length())
+    }
+
+    /// What slides gets the rest of its push with the friction that belongs to it; how much this changes its speed, m/s.
+    fn push_along_cone(&mut self, index: usize) -> f64 {
+        let (spot, row, blow) = (&self.spots[index], &self.rows[index], &self.blows[index]);
+        if blow.sticks || blow.normal <= 0.0 || blow.tangent == DVec3::ZERO {
+            return 0.0;
+        }
+        let normal = spot.contact.normal;
+        let friction = blow.tangent / blow.normal;
+        let per_impulse = normal.dot(row.response * (normal + friction));
+        if per_impulse <= 0.0 {
+            return 0.0;
+        }
+        let lack = row.wanted - self.velocity(index).dot(normal);
+        let along = (lack / per_impulse).max(-blow.normal);
+        self.strike(index, along, along * friction);
+        lack.abs()
+    }
+
+    /// Friction at one spot among others: it ends the slip if the cone allows it; how much it changes its velocity, m/s.
+    fn rub_one(&mut self, index: usize) -> f64 {
+        let (spot, row) = (&self.spots[index], &self.rows[index]);
+        if !spot.is_rough() || row.yielding <= 0.0 {
+            return 0.0;
+        }
+        let slip = self.velocity(index);
+        let across = slip - slip.dot(spot.contact.normal) * spot.contact.normal;
+        // The step of a gradient: where it slides, what is left points against the slip.
+        let old = self.blows[index].tangent;
+        let ending = old - across / row.yielding;
+        let pressed = self.blows[index].normal.max(0.0);
+        let sticks = ending.length() <= spot.contact.static_friction * pressed;
+        let limit = fault::friction(spot.contact.dynamic_friction) * pressed;
+        let new = if sticks { ending } else { ending.clamp_length_max(limit) };
+        self.blows[index].sticks = sticks;
+        let changed = row.yielding * (new - old).length();
+        if changed > 0.0 {
+            self.strike(index, 0.0, new - old);
+        }
+        changed
+    }
+}
