@@ -10,12 +10,14 @@
 //! against each other, what a blow presses lightly is left to the contacts that hold it
 //! ([`Rest::left_speed`](crate::step::rest::Rest::left_speed)).
 
+mod round;
+
 use crate::bodies::{Bodies, WORLD_ROW};
 use crate::collide::{ContactPoint, Manifold};
-use crate::impacts::reflection::{Blow, Mover, Spot, Start, reflect, velocities_after};
-use crate::impacts::strike::{mover_at, pose_at, push, record, velocity_of};
+use crate::impacts::reflection::{Mover, Spot};
+use crate::impacts::strike::{mover_at, pose_at};
 use crate::impacts::time_of_impact::{Approach, RestLaw, Touch};
-use crate::impulse::{Contact, Velocity};
+use crate::impulse::Contact;
 use crate::math::DVec3;
 use crate::report::Impact;
 use crate::step::motion::{advance, rouse};
@@ -28,9 +30,6 @@ const ROUNDS: u32 = 1024;
 
 /// What will touch within this share of a substep touches at the same instant.
 const SIMULTANEOUS: f64 = 1e-3;
-
-/// Where no contact bounces, speeds are found up to this share of the rest threshold.
-const NEGLIGIBLE: f64 = 1e-3;
 
 /// A place where two bodies touch at the instant.
 struct Place {
@@ -259,99 +258,5 @@ impl<'a> Instant<'a> {
         let rattles = place.is_struck && place.spot.contact.restitution < 1.0;
         let slowest = if rattles { place.rest_speed.max(self.law.rest_speed()) } else { place.rest_speed };
         is_near && closing > slowest
-    }
-
-    /// Finds the impulses of a round in which at least `struck` push; returns which do.
-    fn reflect(&mut self, mut struck: Vec<usize>) -> (Vec<usize>, Vec<Blow>) {
-        let mut earlier: Vec<Blow> = Vec::new();
-        loop {
-            let round = Cast::of(self, &struck);
-            let bounces = struck.iter().any(|&index| self.places[index].spot.contact.restitution > 0.0);
-            let least = struck.iter().map(|&index| self.places[index].rest_speed).fold(f64::MAX, f64::min);
-            let negligible = if bounces { 0.0 } else { NEGLIGIBLE * least };
-            let blows = reflect(&round.movers, &round.spots, Start { blows: &earlier, negligible });
-            let after = velocities_after(&round.movers, &round.spots, &blows);
-            let moved = |(&mover, after): (&usize, &Velocity)| {
-                (self.movers[mover].velocity != *after).then_some(mover)
-            };
-            let moved: Vec<usize> = round.of.iter().zip(&after).filter_map(moved).collect();
-            moved.iter().for_each(|&mover| self.open(mover));
-            let velocity = |mover: usize| match round.of.binary_search(&mover) {
-                Ok(local) => after[local],
-                Err(_) => self.movers[mover].velocity,
-            };
-            let mut more = self.places_of(&moved);
-            more.retain(|index| {
-                let spot = &self.places[*index].spot;
-                let closing = -spot.velocity(velocity).dot(spot.contact.normal);
-                spot.contact.restitution == 0.0 && !struck.contains(index) && self.strikes(*index, closing)
-            });
-            if more.is_empty() {
-                return (struck, blows);
-            }
-            struck.append(&mut more);
-            earlier = blows;
-        }
-    }
-
-    /// Gives the bodies their impulses; returns the movers whose velocities change.
-    fn carry_out(&mut self, round: u32, struck: &[usize], blows: &[Blow]) -> Vec<usize> {
-        let first = self.outcome.impacts.len();
-        let mut changed = Vec::new();
-        let mut recorded = Vec::new();
-        for (&index, blow) in struck.iter().zip(blows) {
-            if blow.normal == 0.0 && blow.tangent == DVec3::ZERO {
-                continue;
-            }
-            let place = &mut self.places[index];
-            place.is_struck = true;
-            let colliders = self.pairs[place.pair].colliders;
-            let struck = (self.movers.as_slice(), &place.spot, blow);
-            let impact = record(self.bodies, colliders, &place.contact, struck, (self.time, round));
-            self.outcome.impacts.extend(impact);
-            recorded.push(index);
-            let impulse = blow.normal * place.spot.contact.normal + blow.tangent;
-            for (side, impulse) in [(0, -impulse), (1, impulse)] {
-                let mover = place.spot.movers[side];
-                let row = self.rows[mover];
-                if self.bodies.constants[row].is_movable() {
-                    push(self.bodies, row, place.spot.arms[side], impulse);
-                    changed.push(mover);
-                }
-            }
-        }
-        changed.sort_unstable();
-        changed.dedup();
-        for &mover in &changed {
-            self.movers[mover].velocity = velocity_of(self.bodies, self.rows[mover]);
-            self.outcome.rows.push(self.rows[mover]);
-        }
-        for (impact, index) in self.outcome.impacts[first..].iter_mut().zip(recorded) {
-            let [a, b] = self.places[index].spot.movers;
-            (impact.after_a, impact.after_b) = (self.movers[a].velocity, self.movers[b].velocity);
-        }
-        changed
-    }
-}
-
-/// The bodies and places of one round.
-struct Cast {
-    /// Which movers of the instant, in ascending order.
-    of: Vec<usize>,
-    movers: Vec<Mover>,
-    spots: Vec<Spot>,
-}
-
-impl Cast {
-    fn of(instant: &Instant<'_>, struck: &[usize]) -> Self {
-        let spot = |&index: &usize| instant.places[index].spot;
-        let mut of: Vec<usize> = struck.iter().flat_map(|index| spot(index).movers).collect();
-        of.sort_unstable();
-        of.dedup();
-        let local = |mover: usize| of.partition_point(|&other| other < mover);
-        let spots =
-            struck.iter().map(spot).map(|spot| Spot { movers: spot.movers.map(local), ..spot }).collect();
-        let movers = of.iter().map(|&mover| instant.movers[mover]).collect();
-        Self { of, movers, spots }
     }
 }
