@@ -123,18 +123,15 @@ impl<'a> Approach<'a> {
     /// Where a collider is at `time`, relative to the origin.
     pub(super) fn pose_at(&self, collider: &ColliderRow, time: f64) -> Pose {
         let center = if collider.row == WORLD_ROW {
-            self.bodies.center_pose(collider)
+            let center = self.bodies.center_pose(collider);
+            Pose::new(center.position - self.origin, center.rotation)
         } else if collider.spin_reach == 0.0 {
-            let row = collider.row;
-            let (state, constants) = (&self.bodies.states[row], &self.bodies.constants[row]);
-            let flown = time - self.bodies.clocks[row];
-            let (position, _) = fly_center(state, constants, &self.bodies.influences[row], flown);
-            Pose::new(position, state.rotation)
+            Pose::new(self.center_at(collider, time), self.bodies.states[collider.row].rotation)
         } else {
             let state = self.state_at(collider, time);
-            Pose::new(state.position, state.rotation)
+            Pose::new(state.position - self.origin, state.rotation)
         };
-        Pose::new(center.position - self.origin, center.rotation).then_local(&collider.local)
+        center.then_local(&collider.local)
     }
 
     /// The state of a collider's body at `time` within the step.

@@ -15,6 +15,7 @@ pub(crate) struct Rows {
     pub drifts: Vec<Row>,
     /// Displacements that push overlaps out, laid out like velocities (m, rad).
     pub displacements: Vec<Row>,
+    /// Poses that bodies had when their contacts were last looked at.
     pub anchors: Vec<Pose>,
     /// Where the body has not gone far from, m, and for how long, s.
     haunts: Vec<(DVec3, f64)>,
@@ -125,11 +126,6 @@ impl Rows {
             (*haunt, *since) = (place, 0.0);
         }
         *since
-    }
-
-    /// The pose that a body had when its contacts were last looked at.
-    pub fn anchor_of(&self, row: usize) -> &Pose {
-        &self.anchors[row]
     }
 
     /// A body is where its contacts are looked at.

@@ -16,7 +16,6 @@ impl Round<'_> {
     pub(super) fn rub(&mut self) {
         let (smooth, before) = (self.blows.clone(), self.velocities.clone());
         for _ in 0..SWEEPS {
-            // Friction last, so that wherever the sweeps end it keeps to the cone of the push that it belongs to.
             let change = (0..self.spots.len()).map(|index| self.push_and_rub(index)).fold(0.0, f64::max);
             if change <= (AGREEMENT * self.fastest).max(self.negligible) {
                 break;
@@ -40,7 +39,8 @@ impl Round<'_> {
         }
     }
 
-    /// Both at one spot among others; how much it changes its velocity, m/s.
+    /// Push and friction at one spot among others; how much they change its velocity, m/s. Wherever the sweeps end, friction keeps to the
+    /// cone of the push that it belongs to.
     fn push_and_rub(&mut self, index: usize) -> f64 {
         self.stick(index).unwrap_or_else(|| {
             let pushed = self.push_along_normal(index);

@@ -57,12 +57,12 @@ impl Graph {
         self.islands.of(bundle.a[lane]).or(self.islands.of(bundle.b[lane]))
     }
 
-    /// Whether every body of a row's island is among those that `holds` tells of, row by row.
+    /// Lets what `holds` of single rows hold of whole islands only: of an island in which it fails for one row it holds of none.
     pub fn in_whole_islands(&self, holds: &mut [bool]) {
         let mut whole = vec![true; self.islands.sizes.len()];
-        for (row, &holds) in holds.iter().enumerate().filter(|(_, holds)| !**holds) {
+        for (row, _) in holds.iter().enumerate().filter(|(_, holds)| !**holds) {
             if let Some(island) = self.islands.of(row as u32) {
-                whole[island] = holds;
+                whole[island] = false;
             }
         }
         for (row, holds) in holds.iter_mut().enumerate() {

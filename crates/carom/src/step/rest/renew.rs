@@ -50,7 +50,7 @@ impl Rest {
                 center: center.position,
                 inverse_mass: constants.inverse_mass,
                 inverse_inertia: if movable {
-                    constants.inverse_inertia(self.rows.anchor_of(collider.row).rotation)
+                    constants.inverse_inertia(self.rows.anchors[collider.row].rotation)
                 } else {
                     DMat3::ZERO
                 },
