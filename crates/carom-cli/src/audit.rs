@@ -32,6 +32,7 @@ use carom::{BodyId, World};
 use motion::{Snapshot, courses, snapshot};
 use record::Touching;
 use rest::Resting;
+use round::Threshold;
 use std::collections::BTreeMap;
 use strike::{Strike, strike};
 
@@ -71,13 +72,12 @@ impl Auditor {
         let held = resting.judge(&mut audit.findings);
         let touching = Touching { world, substep, margin, span, held: &held };
         record::judge(&touching, &pairs, &strikes, &mut audit.findings);
-        let left = resting.left_speeds(&strikes);
-        collisions(
-            impacts,
-            &strikes,
-            |strike| rest_threshold(world, strike, substep, &left),
-            &mut audit.findings,
-        );
+        let [left, left_afterwards] =
+            [false, true].map(|afterwards| resting.left_speeds(&strikes, afterwards));
+        let struck = |strike: &Strike| threshold(world, strike, substep, &left);
+        collisions(impacts, &strikes, struck, &mut audit.findings);
+        let afterwards = |strike: &Strike| threshold(world, strike, substep, &left_afterwards);
+        round::parting(&strikes, afterwards, &mut audit.findings);
 
         self.time = world.time();
         self.last = now;
@@ -90,11 +90,11 @@ fn strikes(world: &World, impacts: &[Impact], audit: &mut Audit) -> Vec<Strike> 
     found.collect()
 }
 
-/// Holds collisions to their laws.
+/// Holds the rounds of collisions to their laws.
 fn collisions(
     impacts: &[Impact],
     strikes: &[Strike],
-    rest_threshold: impl Fn(&Strike) -> f64,
+    threshold: impl Fn(&Strike) -> Threshold,
     findings: &mut Vec<Finding>,
 ) {
     let of_impact = |impact: usize| {
@@ -103,14 +103,13 @@ fn collisions(
     };
     for round in rounds(impacts) {
         let round: Vec<&Strike> = round.into_iter().filter_map(of_impact).collect();
-        round::judge(&round, &rest_threshold, findings);
+        round::judge(&round, &threshold, findings);
     }
-    round::parting(strikes, rest_threshold, findings);
 }
 
-/// ½·g·h with the larger gravity factor of the two, m/s; or, if that is more, what is left to the contacts of the two bodies.
-fn rest_threshold(world: &World, strike: &Strike, substep: f64, left: &BTreeMap<[BodyId; 2], f64>) -> f64 {
+/// ½·g·h with the larger gravity factor of the two, and what is left to the contacts of the two bodies.
+fn threshold(world: &World, strike: &Strike, substep: f64, left: &BTreeMap<[BodyId; 2], f64>) -> Threshold {
     let factor = |id: BodyId| world.description(id).map_or(0.0, |body| body.gravity_factor.abs());
     let pull = world.settings().gravity.length() * factor(strike.ids[0]).max(factor(strike.ids[1]));
-    (0.5 * pull * substep).max(left.get(&strike.ids).copied().unwrap_or(0.0))
+    Threshold { rest: 0.5 * pull * substep, left: left.get(&strike.ids).copied().unwrap_or(0.0) }
 }

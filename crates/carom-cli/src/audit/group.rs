@@ -4,7 +4,7 @@ use super::cone::{Cone, SHARED_OUT, unexplained};
 use super::law::{Finding, Law, Place, ROUNDING, positive};
 use super::motion::Course;
 use super::near::Pair;
-use super::rest::{Given, Moments, Resting};
+use super::rest::{Given, Resting};
 use super::strike::Party;
 use carom::math::DVec3;
 use carom::{BodyId, Motion};
@@ -65,14 +65,7 @@ impl Resting<'_> {
         let tolerance = ROUNDING * (scale + gifts);
         let shared_out = if holders.is_empty() { 0.0 } else { SHARED_OUT * got.length() };
         let place = || Place::Bodies(bodies.to_vec(), self.span.1);
-        let unexplained = |moments: Moments| {
-            let cones = self.cones_of_holders(bodies, holders, moments);
-            unexplained(got, &cones, DVec3::ZERO, tolerance)
-        };
-        let mut error = unexplained(Moments::Ends);
-        if error > tolerance + shared_out {
-            error = unexplained(Moments::Substeps);
-        }
+        let error = unexplained(got, &self.cones_of_holders(bodies, holders), DVec3::ZERO, tolerance);
         let law = Law::GroupMomentum;
         findings.push(Finding { law, place: place(), error, tolerance: tolerance + shared_out });
         if holders.is_empty() {
@@ -81,12 +74,11 @@ impl Resting<'_> {
         findings.extend(self.group_energy(&courses, holders, given));
     }
 
-    fn cones_of_holders(&self, bodies: &[BodyId], holders: &[&Pair<'_>], moments: Moments) -> Vec<Cone> {
-        let times = self.times(self.span, moments);
+    fn cones_of_holders(&self, bodies: &[BodyId], holders: &[&Pair<'_>]) -> Vec<Cone> {
         let mut cones = Vec::new();
         for pair in holders {
             let id = if bodies.contains(&pair.ids[0]) { pair.ids[0] } else { pair.ids[1] };
-            self.add_cones((pair, id), self.span, &times, &mut cones);
+            self.add_cones(pair, id, self.span, &mut cones);
         }
         cones
     }

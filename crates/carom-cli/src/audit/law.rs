@@ -134,7 +134,7 @@ impl Law {
     pub fn tolerance_rule(self) -> &'static str {
         match self {
             Law::SeparatingSpeed => {
-                "ε·Σ(|v| + |r|·(|I⁻¹|·|Iω| + |ω|)) + |u|·(error of the normal); of several, + 0.1·(that of parting) or 1e-3·|v_c|"
+                "ε·Σ(|v| + |r|·(|I⁻¹|·|Iω| + |ω|)) + |u|·(error of the normal); of several, + 0.1·(that of parting; all of ½·g·h for C_r = 0) or 1e-3·(fastest |v_c|)"
             }
             Law::LinearMomentum => "ε·Σ m|v|, before and after",
             Law::AngularMomentum => "ε·Σ(|x−p|·m|v| + |Iω|), before and after, p the point",

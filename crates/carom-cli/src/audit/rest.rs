@@ -25,15 +25,6 @@ pub(super) struct Resting<'a> {
     pub(super) span: (f64, f64),
 }
 
-/// When it is looked what touches.
-#[derive(Clone, Copy)]
-pub(super) enum Moments {
-    /// At both ends of a stretch.
-    Ends,
-    /// At every substep too: what is fast rolls over whole faces within a step.
-    Substeps,
-}
-
 /// What contacts gave to a body in a step.
 #[derive(Default)]
 pub(super) struct Given {
@@ -62,7 +53,7 @@ impl<'a> Resting<'a> {
                 let cones = if deviation.is_free() || !course.is_movable {
                     Vec::new()
                 } else {
-                    self.cones(near, course.id, span, Moments::Ends)
+                    self.cones(near, course.id, span)
                 };
                 if cones.is_empty() {
                     flight(course, &deviation, to.time, findings);
@@ -75,11 +66,7 @@ impl<'a> Resting<'a> {
                     let divided = from.time > self.span.0 || to.time < self.span.1;
                     let advance =
                         if divided { course.mass * self.substep * course.gravity } else { DVec3::ZERO };
-                    let mut error = unexplained(impulse, &cones, advance, tolerance);
-                    if error > tolerance {
-                        let cones = self.cones(near, course.id, span, Moments::Substeps);
-                        error = unexplained(impulse, &cones, advance, tolerance);
-                    }
+                    let error = unexplained(impulse, &cones, advance, tolerance);
                     let place = Place::Bodies(vec![course.id], to.time);
                     findings.push(Finding { law: Law::Support, place, error, tolerance });
                 }
@@ -94,15 +81,16 @@ impl<'a> Resting<'a> {
         given.into_iter().map(|(id, given)| (id, given.course_error)).collect()
     }
 
-    /// Closing speeds (m/s) that a blow may leave to contacts: of pairs that rested against each other already, and do not
-    /// bounce without loss, if they are stopped before they are deep in each other. What does not bounce rests as soon as it is struck.
-    pub(super) fn left_speeds(&self, strikes: &[Strike]) -> BTreeMap<[BodyId; 2], f64> {
+    /// Closing speeds (m/s) that a blow may leave to contacts: of pairs that rest against each other, and do not
+    /// bounce without loss, if they are stopped before they are deep in each other. When they are struck, these are pairs that rested
+    /// already; `afterwards` also what does not bounce, which rests as soon as it is struck.
+    pub(super) fn left_speeds(&self, strikes: &[Strike], afterwards: bool) -> BTreeMap<[BodyId; 2], f64> {
         let struck: BTreeSet<[BodyId; 2]> = strikes.iter().map(|strike| strike.ids).collect();
         let rests = |pair: &&Pair<'_>| {
             let restitution = pair.surface().restitution;
             struck.contains(&pair.ids)
                 && restitution < 1.0
-                && (restitution == 0.0 || pair.gap(self.span.0) <= pair.horizon(self.margin))
+                && ((afterwards && restitution == 0.0) || pair.gap(self.span.0) <= pair.horizon(self.margin))
         };
         let resting = self.pairs.iter().filter(rests);
         resting.map(|pair| (pair.ids, HORIZON * pair.size() / self.substep)).collect()
@@ -117,37 +105,20 @@ impl<'a> Resting<'a> {
         pair.horizon(self.margin) + ((paces[0] + paces[1]) * self.substep).min(pair.size())
     }
 
-    /// When to look within a stretch.
-    pub(super) fn times(&self, span: (f64, f64), moments: Moments) -> Vec<f64> {
-        match moments {
-            Moments::Ends => vec![span.0, span.1],
-            Moments::Substeps => {
-                let count = ((span.1 - span.0) / self.substep).ceil().max(1.0);
-                (0..=count as usize).map(|k| span.0 + (span.1 - span.0) * k as f64 / count).collect()
-            }
-        }
-    }
-
     /// The cones of what may have pushed a body.
-    fn cones(&self, near: &[&Pair<'_>], id: BodyId, span: (f64, f64), moments: Moments) -> Vec<Cone> {
-        let times = self.times(span, moments);
+    fn cones(&self, near: &[&Pair<'_>], id: BodyId, span: (f64, f64)) -> Vec<Cone> {
         let mut cones = Vec::new();
         for pair in near {
-            self.add_cones((pair, id), span, &times, &mut cones);
+            self.add_cones(pair, id, span, &mut cones);
         }
         cones
     }
 
-    pub(super) fn add_cones(
-        &self,
-        (pair, id): (&Pair<'_>, BodyId),
-        span: (f64, f64),
-        times: &[f64],
-        cones: &mut Vec<Cone>,
-    ) {
+    pub(super) fn add_cones(&self, pair: &Pair<'_>, id: BodyId, span: (f64, f64), cones: &mut Vec<Cone>) {
         let mut touches: Vec<Touch> = Vec::new();
         let reach = self.reach(pair);
-        times.iter().for_each(|&time| pair.touches(time, reach, &mut touches));
+        pair.touches(span.0, reach, &mut touches);
+        pair.touches(span.1, reach, &mut touches);
         // What contacts give for a substep, they may give at its start.
         let time = (span.1 - span.0).max(self.substep);
         let turned: f64 = [0, 1].map(|side| pair.course(side).pace().1).iter().sum::<f64>() * time;

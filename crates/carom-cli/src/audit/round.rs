@@ -47,17 +47,33 @@ impl Struck {
     }
 }
 
-/// How much of the rest threshold, or if it is more of the closing speed, may be missing where several contacts push at once: what closes
-/// so slowly is a contact, and so far rounds of reflections agree.
+/// How much of the rest threshold, or if it is more of the fastest closing speed, may be missing where several contacts push at once: so
+/// far rounds of reflections agree. What does not bounce may go on closing up to the threshold itself: it is a contact then.
 const LEFT: f64 = 0.1;
 const AGREED: f64 = 1e-3;
 
-/// Holds the contacts of one round to their laws; each has a rest threshold, m/s.
-pub(super) fn judge(round: &[&Strike], rest_threshold: impl Fn(&Strike) -> f64, findings: &mut Vec<Finding>) {
+/// Closing speeds that are the business of contacts, m/s.
+#[derive(Clone, Copy)]
+pub(super) struct Threshold {
+    /// Of two that touch for the first time.
+    pub(super) rest: f64,
+    /// Of two that rest against each other and are struck on from elsewhere; 0 where they do not.
+    pub(super) left: f64,
+}
+
+/// Holds the contacts of one round to their laws.
+pub(super) fn judge(
+    round: &[&Strike],
+    threshold: impl Fn(&Strike) -> Threshold,
+    findings: &mut Vec<Finding>,
+) {
     let bodies = bodies(round);
+    let closing = round.iter().map(|strike| positive(-strike.speed(&strike.before)));
+    let fastest = closing.fold(0.0, f64::max);
     for strike in round {
-        let closing = positive(-strike.speed(&strike.before));
-        let left = (round.len() > 1).then(|| (LEFT * rest_threshold(strike)).max(AGREED * closing));
+        let Threshold { rest, left } = threshold(strike);
+        let resting = if strike.surface.restitution == 0.0 { rest } else { LEFT * rest };
+        let left = (round.len() > 1).then(|| resting.max(LEFT * left).max(AGREED * fastest));
         findings.push(separating_speed(strike, left));
         findings.push(push(strike));
     }
@@ -209,7 +225,7 @@ fn energy(round: &[&Strike], bodies: &BTreeMap<BodyId, Struck>) -> Option<Findin
 /// After the last round of an instant nothing that was struck may go on closing, faster than the rest threshold.
 pub(super) fn parting(
     strikes: &[Strike],
-    rest_threshold: impl Fn(&Strike) -> f64,
+    threshold: impl Fn(&Strike) -> Threshold,
     findings: &mut Vec<Finding>,
 ) {
     let mut last: BTreeMap<(u64, BodyId), (u32, Velocity)> = BTreeMap::new();
@@ -226,11 +242,12 @@ pub(super) fn parting(
         let after = [0, 1].map(|side| {
             last.get(&(strike.time.to_bits(), strike.ids[side])).map_or(strike.after[side], |entry| entry.1)
         });
+        let Threshold { rest, left } = threshold(strike);
         findings.push(Finding {
             law: Law::Parting,
             place: Place::Collision(strike.impact),
             error: positive(-strike.speed(&after)),
-            tolerance: strike.speed_tolerance() + rest_threshold(strike),
+            tolerance: strike.speed_tolerance() + rest.max(left),
         });
     }
 }

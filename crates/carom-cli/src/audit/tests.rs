@@ -32,8 +32,9 @@ fn broken(world: &World, impact: &Impact) -> Vec<Law> {
 fn broken_by(world: &World, impacts: &[Impact]) -> Vec<Law> {
     let mut audit = Audit::default();
     let strikes = strikes(world, impacts, &mut audit);
-    let rest_threshold = |strike: &Strike| rest_threshold(world, strike, 1.0 / 240.0, &BTreeMap::new());
-    collisions(impacts, &strikes, rest_threshold, &mut audit.findings);
+    let threshold = |strike: &Strike| threshold(world, strike, 1.0 / 240.0, &BTreeMap::new());
+    collisions(impacts, &strikes, threshold, &mut audit.findings);
+    round::parting(&strikes, threshold, &mut audit.findings);
     assert_eq!(audit.without_normal, 0);
     laws_of(&audit)
 }
