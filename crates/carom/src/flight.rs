@@ -239,6 +239,9 @@ pub(crate) fn fly_center(
     influence: &Influence,
     time: f64,
 ) -> (DVec3, DVec3) {
+    if time == 0.0 {
+        return (state.position, state.velocity);
+    }
     let decay = constants.linear_damping * time;
     let [fraction, second, _] = decay_fractions(decay);
     let (v, a) = (state.velocity, fault::gravity(influence.acceleration));

@@ -80,35 +80,12 @@ pub(super) fn leave_out_idle(
     if manifolds.is_empty() {
         return;
     }
-    let mut beside = beside(approach, pairs, (time, margin));
     let seam = Seam { approach, time, margin };
-    manifolds.retain_mut(|manifold| beside.iter_mut().all(|beside| seam.holds(manifold, beside)));
-}
-
-/// The other colliders near those of the approach that share one with it: each one's neighbours, and the other colliders
-/// of its body that have the same neighbour.
-fn beside(approach: &Approach, pairs: &Pairs, (time, margin): (f64, f64)) -> Vec<Beside> {
-    let (a, b) = approach.keys;
-    let bodies = approach.bodies;
-    let rows = [approach.a.row, approach.b.row];
-    let mut found: Vec<Beside> = Vec::new();
-    for row in rows.into_iter().filter(|&row| row != WORLD_ROW && bodies.constants[row].is_movable()) {
-        for number in 0..pairs.count_of_row(row) {
-            let pair = &pairs[pairs.of_row(row, number)];
-            let (first, second) = pair.colliders;
-            let shares = |key: u32| first == key || second == key;
-            if pair.sensor || shares(a) == shares(b) {
-                continue;
-            }
-            let shared = if shares(a) { a } else { b };
-            let other = if first == shared { second } else { first };
-            let is_near = pair.rests || pair.least_separation(bodies, time) <= margin + approach.flush();
-            if is_near && !found.iter().any(|beside| beside.other == other) {
-                found.push(Beside { other, shares_first: shared == a, planes: None });
-            }
-        }
+    let mut beside = seam.beside(pairs, manifolds);
+    if beside.is_empty() {
+        return;
     }
-    found
+    manifolds.retain_mut(|manifold| beside.iter_mut().all(|beside| seam.holds(manifold, beside)));
 }
 
 /// A question about manifolds of an approach.
@@ -119,15 +96,68 @@ struct Seam<'a> {
 }
 
 impl Seam<'_> {
+    /// The other colliders that share one of the approach's with it and come near one of its contacts: each one's neighbours, and the
+    /// other colliders of its body that have the same neighbour.
+    fn beside(&self, pairs: &Pairs, manifolds: &[Manifold]) -> Vec<Beside> {
+        let approach = self.approach;
+        let (a, b) = approach.keys;
+        let bodies = approach.bodies;
+        let rows = [approach.a.row, approach.b.row];
+        let mut found: Vec<Beside> = Vec::new();
+        for row in rows.into_iter().filter(|&row| row != WORLD_ROW && bodies.constants[row].is_movable()) {
+            for number in 0..pairs.count_of_row(row) {
+                let pair = &pairs[pairs.of_row(row, number)];
+                let (first, second) = pair.colliders;
+                let shares = |key: u32| first == key || second == key;
+                if pair.sensor || shares(a) == shares(b) {
+                    continue;
+                }
+                let shared = if shares(a) { a } else { b };
+                let other = if first == shared { second } else { first };
+                if self.comes_near(other, shared == a, manifolds)
+                    && (pair.rests
+                        || pair.least_separation(bodies, self.time) <= self.margin + approach.flush())
+                    && !found.iter().any(|beside| beside.other == other)
+                {
+                    found.push(Beside { other, shares_first: shared == a, planes: None });
+                }
+            }
+        }
+        found
+    }
+
+    /// Whether a collider may come so near the place of one of the manifolds that it can make it idle.
+    fn comes_near(&self, other: u32, shares_first: bool, manifolds: &[Manifold]) -> bool {
+        let Some(other) = self.approach.bodies.collider(other) else { return false };
+        let center = self.approach.center_at(other, self.time);
+        let reach = (1.0 + SLACK) * other.reach + GAP * self.reach(other, shares_first);
+        manifolds.iter().filter_map(|manifold| manifold.points().iter().min_by(nearest)).any(|contact| {
+            let far = reach + 1.5 * contact.separation.abs();
+            center.distance_squared(contact.point) <= far * far
+        })
+    }
+
+    /// What is small against it is small for the three: the two of the approach, one of which is shared, and the `other` one.
+    fn reach(&self, other: &ColliderRow, shares_first: bool) -> f64 {
+        let (shared, own) = self.sides(shares_first);
+        shared.reach.min(own.reach.max(other.reach))
+    }
+
+    /// The collider of the approach that is shared, and the one that is not.
+    fn sides(&self, shares_first: bool) -> (&ColliderRow, &ColliderRow) {
+        let (a, b) = (self.approach.a, self.approach.b);
+        if shares_first { (a, b) } else { (b, a) }
+    }
+
     /// Whether what is `beside` leaves a manifold to do something; where it does, their normals are made the same if they are
     /// alike.
     fn holds(&self, manifold: &mut Manifold, beside: &mut Beside) -> bool {
         let approach = self.approach;
-        let (a, b) = (approach.a, approach.b);
-        let (shared, own, sign) = if beside.shares_first { (a, b, -1.0) } else { (b, a, 1.0) };
+        let (shared, own) = self.sides(beside.shares_first);
+        let sign = if beside.shares_first { -1.0 } else { 1.0 };
         let Some(other) = approach.bodies.collider(beside.other) else { return true };
         let Some(contact) = manifold.points().iter().min_by(nearest) else { return true };
-        let reach = shared.reach.min(own.reach.max(other.reach));
+        let reach = self.reach(other, beside.shares_first);
         let normal = sign * manifold.normal;
         let place = contact.point - 0.5 * contact.separation * normal;
         if !self.meets_ball(other, place, GAP * reach + contact.separation.max(0.0)) {
