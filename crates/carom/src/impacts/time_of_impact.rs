@@ -75,6 +75,23 @@ pub(crate) struct Touch {
     pub rest_speed: f64,
 }
 
+/// The points of a pair that rests which its contacts see to.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Kept {
+    /// Gap that they had at most, m, at the time within the step from which on the pair is asked about, s.
+    pub horizon: f64,
+    pub since: f64,
+    /// Speed with which they close at most, m/s.
+    pub pressed: f64,
+}
+
+impl Kept {
+    /// Whether a point is one of them that moves with a `speed` along the normal (m/s) and has this gap (m) at `time`.
+    fn holds(&self, gap: f64, speed: f64, time: f64) -> bool {
+        -speed <= self.pressed && gap - speed * (time - self.since) <= self.horizon
+    }
+}
+
 /// Relative accuracy of separations: of our own kernels, and of pairs that go through parry's iterations.
 const OWN_ACCURACY: f64 = 1e-9;
 const PARRY_ACCURACY: f64 = 1e-6;
@@ -232,18 +249,46 @@ impl<'a> Approach<'a> {
         })
     }
 
-    /// The touch that closes fastest at `time`, if any closes faster than rounding (or, for a pair that `rests`, than the
-    /// rest threshold and its drift).
-    fn touch(&self, pairs: &Pairs, time: f64, rests: bool) -> Option<Touch> {
-        self.fastest_touch(pairs, (time, rests), 1.0)
+    /// The least gap at `time` of the points that close faster than they may, m: as [`Self::touch`], but up to a `margin`.
+    fn gap_of_closing(&self, time: f64, margin: f64, kept: Option<Kept>) -> f64 {
+        let mut manifolds = Vec::new();
+        self.local_manifolds(time, margin, &mut manifolds);
+        let motions = if manifolds.is_empty() { return f64::INFINITY } else { self.motions(time) };
+        let mut least = f64::INFINITY;
+        for manifold in &manifolds {
+            let limit = self.closing_limit(manifold.normal, kept);
+            for contact in manifold.points() {
+                let speed = normal_velocity(&motions, contact.point + self.origin, manifold.normal);
+                if speed < -limit && !kept.is_some_and(|kept| kept.holds(contact.separation, speed, time)) {
+                    least = least.min(contact.separation);
+                }
+            }
+        }
+        least
+    }
+
+    /// Closing speed that is none yet, m/s: rounding, or for a pair that rests, the rest threshold and its drift.
+    fn closing_limit(&self, normal: DVec3, kept: Option<Kept>) -> f64 {
+        if kept.is_some() { self.rest_speed(normal).max(self.law.drift_speed()) } else { self.noise() }
+    }
+
+    /// The touch that closes fastest at `time`, if any closes faster than rounding (or, for a pair that rests, than the
+    /// rest threshold and its drift, and is not `kept` by its contacts).
+    fn touch(&self, pairs: &Pairs, time: f64, kept: Option<Kept>) -> Option<Touch> {
+        self.fastest_touch(pairs, (time, kept), 1.0)
     }
 
     /// The same at an instant that [`Self::next_touch`] has found, where the closing speed may just be at its limit.
-    pub fn confirmed_touch(&self, pairs: &Pairs, time: f64, rests: bool) -> Option<Touch> {
-        self.fastest_touch(pairs, (time, rests), 0.5)
+    pub fn confirmed_touch(&self, pairs: &Pairs, time: f64, kept: Option<Kept>) -> Option<Touch> {
+        self.fastest_touch(pairs, (time, kept), 0.5)
     }
 
-    fn fastest_touch(&self, pairs: &Pairs, (time, rests): (f64, bool), share_of_limit: f64) -> Option<Touch> {
+    fn fastest_touch(
+        &self,
+        pairs: &Pairs,
+        (time, kept): (f64, Option<Kept>),
+        share_of_limit: f64,
+    ) -> Option<Touch> {
         let mut manifolds = Vec::new();
         self.local_manifolds(time, self.tolerance, &mut manifolds);
         let motions = if manifolds.is_empty() { return None } else { self.motions(time) };
@@ -251,12 +296,13 @@ impl<'a> Approach<'a> {
             let mut fastest: Option<Touch> = None;
             for manifold in manifolds {
                 let rest_speed = self.rest_speed(manifold.normal);
-                let limit = share_of_limit
-                    * if rests { rest_speed.max(self.law.drift_speed()) } else { self.noise() };
+                let limit = share_of_limit * self.closing_limit(manifold.normal, kept);
                 for contact in manifold.points() {
                     let contact = ContactPoint { point: contact.point + self.origin, ..*contact };
                     let closing_speed = normal_velocity(&motions, contact.point, manifold.normal);
-                    if closing_speed < fastest.map_or(-limit, |touch| touch.closing_speed) {
+                    if closing_speed < fastest.map_or(-limit, |touch| touch.closing_speed)
+                        && !kept.is_some_and(|kept| kept.holds(contact.separation, closing_speed, time))
+                    {
                         let normal = manifold.normal;
                         fastest = Some(Touch { normal, contact, closing_speed, rest_speed });
                     }

@@ -24,7 +24,8 @@ use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
 /// So many impacts of one pair in one step are taken one by one. If it is then down to this fraction of its fastest, the
-/// pair is a ball that rattles itself to rest, and rests.
+/// pair is a ball that rattles itself to rest, and rests. Where nothing bounces one impact is enough: what closes again, as slowly
+/// as that, has stayed in touch, as a corner does that turns against the wall along which it falls.
 const RATTLE_HITS: u32 = 32;
 const RATTLE_SPEED: f64 = 0.01;
 
@@ -142,7 +143,7 @@ impl<'a> Events<'a> {
         let until = if is_held { span.until } else { self.law.step };
         let pair = &mut self.pairs[index];
         pair.now.stamp += 1;
-        pair.now.asked_until = until;
+        (pair.now.asked_from, pair.now.asked_until) = (span.from, until);
         let pair = &self.pairs[index];
         let may_touch = if pair.rests {
             self.rest.is_driven(self.bodies, pair, self.law, span)
@@ -154,7 +155,12 @@ impl<'a> Events<'a> {
         }
         let Some(approach) = Approach::of(self.bodies, pair.colliders, self.law) else { return };
         let instant = if pair.rests {
-            approach.next_touch(self.pairs, span.from, until, true)
+            approach.next_touch(
+                self.pairs,
+                span.from,
+                until,
+                Some(self.rest.kept(self.bodies, pair, self.law)),
+            )
         } else {
             let separation = approach.separation(span.from);
             let pair = &mut self.pairs[index];
@@ -165,7 +171,7 @@ impl<'a> Events<'a> {
             if self.pairs[index].sensor {
                 approach.first_overlap(span.from, until)
             } else {
-                approach.next_touch(self.pairs, span.from, until, false)
+                approach.next_touch(self.pairs, span.from, until, None)
             }
         };
         if let Some(time) = instant {
@@ -188,8 +194,9 @@ impl<'a> Events<'a> {
             self.touches_of_row[row] += u32::from(row != WORLD_ROW);
         }
         let rests = self.pairs[index].rests;
+        let kept = rests.then(|| self.rest.kept(self.bodies, &self.pairs[index], self.law));
         let Some(approach) = Approach::of(self.bodies, colliders, self.law) else { return };
-        let Some(touch) = approach.confirmed_touch(self.pairs, time, rests) else {
+        let Some(touch) = approach.confirmed_touch(self.pairs, time, kept) else {
             // It vanished under a closer look: look again a moment later, the next time twice that.
             let now = &mut self.pairs[index].now;
             now.patience *= 2.0;
@@ -239,7 +246,11 @@ impl<'a> Events<'a> {
         let closing = -touch.closing_speed;
         let pair = &mut self.pairs[index];
         pair.now.fastest = pair.now.fastest.max(closing);
-        let rattles = pair.now.hits >= RATTLE_HITS && closing < RATTLE_SPEED * pair.now.fastest;
+        let rattles = if pair.surface.restitution > 0.0 {
+            pair.now.hits >= RATTLE_HITS && closing < RATTLE_SPEED * pair.now.fastest
+        } else {
+            pair.now.hits > 0 && closing < RATTLE_SPEED * pair.now.fastest.max(self.law.rest_speed())
+        };
         let wedged = pair.rows.iter().any(|&row| self.touches_of_row[row] >= WEDGED_TOUCHES);
         closing <= touch.rest_speed || rattles || wedged
     }

@@ -59,7 +59,8 @@ impl Support {
 pub(crate) struct Present {
     /// Counts how often it was asked when it will touch.
     pub stamp: u32,
-    /// Until when it has been asked, s.
+    /// From when until when it has been asked, s.
+    pub asked_from: f64,
     pub asked_until: f64,
     /// Impacts so far.
     pub hits: u32,
@@ -72,8 +73,15 @@ pub(crate) struct Present {
 }
 
 impl Present {
-    const NOTHING: Present =
-        Present { stamp: 0, asked_until: -1.0, hits: 0, fastest: 0.0, is_sensed: false, patience: 1e-9 };
+    const NOTHING: Present = Present {
+        stamp: 0,
+        asked_from: 0.0,
+        asked_until: -1.0,
+        hits: 0,
+        fastest: 0.0,
+        is_sensed: false,
+        patience: 1e-9,
+    };
 }
 
 impl Pair {

@@ -31,7 +31,7 @@ mod renew;
 mod validate;
 
 use crate::bodies::{Bodies, WORLD_ROW};
-use crate::impacts::time_of_impact::{Approach, RestLaw};
+use crate::impacts::time_of_impact::{Approach, Kept, RestLaw};
 use crate::math::DVec3;
 use crate::solver::bundle::field;
 use crate::solver::graph::Graph;
@@ -219,13 +219,18 @@ impl Rest {
         pushed.map(f64::from).sum::<f64>() > TRACE * weight
     }
 
+    /// Which points of a pair that rests its contacts see to.
+    pub fn kept(&self, bodies: &Bodies, pair: &Pair, law: RestLaw) -> Kept {
+        let grain = grain(bodies, pair);
+        let pressed = if pair.surface.restitution > 0.0 { 0.0 } else { PRESSED * grain / law.substep };
+        Kept { horizon: horizon(pair, grain, law), since: pair.now.asked_from, pressed }
+    }
+
     /// Whether a point of a pair that rests will strike in the time left of a substep: one that comes from further away than
     /// contacts reach, or one that a collision has set in motion.
     pub fn is_driven(&self, bodies: &Bodies, pair: &Pair, law: RestLaw, span: Span) -> bool {
         let left = span.until - span.from;
-        let grain = grain(bodies, pair);
-        let horizon = horizon(pair, grain, law);
-        let pressed = if pair.surface.restitution > 0.0 { 0.0 } else { PRESSED * grain / law.substep };
+        let Kept { horizon, pressed, .. } = self.kept(bodies, pair, law);
         let motion = pair.rows.map(|row| {
             let state = &bodies.states[row];
             (state.velocity, bodies.constants[row].angular_velocity(state))

@@ -4,7 +4,7 @@
 //! rate. The search marches from one instant to the next that is safe (*conservative advancement*, Mirtich 1996, ch. 2) or
 //! a small fraction of the thinner body further, whichever is later; a change of sign is then closed in on to rounding.
 
-use super::Approach;
+use super::{Approach, Kept};
 use crate::bodies::{ColliderRow, WORLD_ROW};
 use crate::fault;
 use crate::flight::fly_center;
@@ -41,9 +41,9 @@ impl Approach<'_> {
             + f64::MIN_POSITIVE
     }
 
-    /// The first instant from `from` until `until` at which the two touch and close; for a pair that `rests`, close
-    /// faster than the rest threshold.
-    pub fn next_touch(&self, pairs: &Pairs, from: f64, until: f64, rests: bool) -> Option<f64> {
+    /// The first instant from `from` until `until` at which the two touch and close; for a pair that rests, close
+    /// faster than the rest threshold where its contacts have not `kept` the point.
+    pub fn next_touch(&self, pairs: &Pairs, from: f64, until: f64, kept: Option<Kept>) -> Option<f64> {
         if fault::lost_collision((self.a.slot, self.b.slot)) {
             return None;
         }
@@ -54,9 +54,9 @@ impl Approach<'_> {
         loop {
             let (time, separation) = now;
             let touching = separation <= self.tolerance;
-            if touching && self.touch(pairs, time, rests).is_some() {
+            if touching && self.touch(pairs, time, kept).is_some() {
                 return Some(match before {
-                    Some((earlier, _)) => self.first_closing(pairs, (earlier, time), limit, rests),
+                    Some((earlier, _)) => self.first_closing(pairs, (earlier, time), limit, kept),
                     None => time,
                 });
             }
@@ -73,7 +73,7 @@ impl Approach<'_> {
                 before.and_then(|before| self.dip([before, now, next], limit))
             };
             if let Some(instant) = crossing
-                && self.touch(pairs, instant, rests).is_some()
+                && self.touch(pairs, instant, kept).is_some()
             {
                 return Some(instant);
             }
@@ -167,19 +167,40 @@ impl Approach<'_> {
 
     /// The first instant after `open`, where nothing closes, at which something does, as at `closing`; as exact as
     /// separations are.
+    ///
+    /// Where a corner comes down beside what touches already, false position on its gap (as in [`Self::root`]); bisection where a point
+    /// that touches comes to close.
     fn first_closing(
         &self,
         pairs: &Pairs,
         (mut open, mut closing): (f64, f64),
         limit: f64,
-        rests: bool,
+        kept: Option<Kept>,
     ) -> f64 {
-        while (closing - open) * limit > self.tolerance {
-            let middle = 0.5 * (open + closing);
+        let margin = (closing - open) * limit + self.tolerance;
+        let gap = |time: f64| self.gap_of_closing(time, margin, kept);
+        let (mut open_gap, mut closing_gap) = (gap(open), gap(closing));
+        for iteration in 0.. {
+            if (closing - open) * limit <= self.tolerance {
+                break;
+            }
+            let is_bracketed = open_gap.is_finite() && closing_gap < 0.0;
+            let fraction =
+                if iteration % 4 == 3 || !is_bracketed { 0.5 } else { open_gap / (open_gap - closing_gap) };
+            let middle = open + fraction * (closing - open);
             if middle <= open || middle >= closing {
                 break;
             }
-            if self.touch(pairs, middle, rests).is_some() { closing = middle } else { open = middle }
+            if self.touch(pairs, middle, kept).is_some() {
+                (closing, closing_gap) = (middle, gap(middle));
+                if closing_gap.abs() <= self.tolerance && open_gap.is_finite() {
+                    break;
+                }
+                open_gap *= 0.5;
+            } else {
+                (open, open_gap) = (middle, gap(middle));
+                closing_gap *= 0.5;
+            }
         }
         closing
     }
