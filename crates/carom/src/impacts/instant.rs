@@ -17,7 +17,7 @@ use crate::collide::{ContactPoint, Manifold};
 use crate::impacts::reflection::{Mover, Spot};
 use crate::impacts::strike::{mover_at, pose_at};
 use crate::impacts::time_of_impact::{Approach, RestLaw, Touch};
-use crate::impulse::Contact;
+use crate::impulse::{Contact, Velocity};
 use crate::math::DVec3;
 use crate::report::Impact;
 use crate::step::motion::{advance, rouse};
@@ -79,6 +79,8 @@ pub(crate) struct Instant<'a> {
     places: Vec<Place>,
     places_of: Vec<Vec<usize>>,
     gathered: BTreeSet<usize>,
+    /// Pairs that need not be gathered unless their bodies get faster.
+    waiting: Vec<usize>,
     outcome: Outcome,
 }
 
@@ -104,6 +106,7 @@ impl<'a> Instant<'a> {
             places: Vec::new(),
             places_of: Vec::new(),
             gathered: BTreeSet::new(),
+            waiting: Vec::new(),
             outcome: Outcome::default(),
         };
         instant.gather(first);
@@ -172,10 +175,47 @@ impl<'a> Instant<'a> {
         advance(self.bodies, row, self.time);
         for number in 0..self.pairs.count_of_row(row) {
             let pair = self.pairs.of_row(row, number);
-            if !self.pairs[pair].sensor {
+            if self.pairs[pair].sensor || self.gathered.contains(&pair) {
+                continue;
+            }
+            if self.may_strike(pair, |_| None) {
                 self.gather(pair);
+            } else {
+                self.waiting.push(pair);
             }
         }
+    }
+
+    /// Gathers the pairs that were too slow to be struck and are no longer where movers' velocities have `changed`.
+    fn gather_waiting(&mut self, changed: impl Fn(usize) -> Option<Velocity>) {
+        for pair in std::mem::take(&mut self.waiting) {
+            if self.may_strike(pair, &changed) {
+                self.gather(pair);
+            } else {
+                self.waiting.push(pair);
+            }
+        }
+    }
+
+    /// Whether any point of a pair can close faster than what is left to contacts. What is no mover keeps to its path.
+    fn may_strike(&self, index: usize, changed: impl Fn(usize) -> Option<Velocity>) -> bool {
+        let pair = &self.pairs[index];
+        let left = if pair.rests { self.rest.left_speed(self.bodies, pair, self.law) } else { 0.0 };
+        if left == 0.0 {
+            return true;
+        }
+        let speed = |side: usize| {
+            let row = pair.rows[side];
+            let (linear, angular) = match self.mover_of_row.get(&row) {
+                Some(&mover) => {
+                    let Velocity { linear, angular } = changed(mover).unwrap_or(self.movers[mover].velocity);
+                    (linear.length(), angular.length())
+                }
+                None => self.bodies.paces[row],
+            };
+            linear + angular * pair.spin_reach[side]
+        };
+        speed(0) + speed(1) > left
     }
 
     /// Gathers the places where a pair touches.

@@ -7,7 +7,7 @@ use crate::impulse::Velocity;
 use crate::math::DVec3;
 
 /// Where no contact bounces, speeds are found up to this share of the rest threshold.
-const NEGLIGIBLE: f64 = 1e-3;
+const NEGLIGIBLE: f64 = 1e-5;
 
 impl Instant<'_> {
     /// Finds the impulses of a round in which at least `struck` push; returns which do.
@@ -15,9 +15,7 @@ impl Instant<'_> {
         let mut earlier: Vec<Blow> = Vec::new();
         loop {
             let round = Cast::of(self, &struck);
-            let bounces = struck.iter().any(|&index| self.places[index].spot.contact.restitution > 0.0);
-            let least = struck.iter().map(|&index| self.places[index].rest_speed).fold(f64::MAX, f64::min);
-            let negligible = if bounces { 0.0 } else { NEGLIGIBLE * least };
+            let negligible = self.negligible(&struck);
             let blows = reflect(&round.movers, &round.spots, Start { blows: &earlier, negligible });
             let after = velocities_after(&round.movers, &round.spots, &blows);
             let moved = |(&mover, after): (&usize, &Velocity)| {
@@ -25,10 +23,9 @@ impl Instant<'_> {
             };
             let moved: Vec<usize> = round.of.iter().zip(&after).filter_map(moved).collect();
             moved.iter().for_each(|&mover| self.open(mover));
-            let velocity = |mover: usize| match round.of.binary_search(&mover) {
-                Ok(local) => after[local],
-                Err(_) => self.movers[mover].velocity,
-            };
+            let changed = |mover: usize| round.of.binary_search(&mover).ok().map(|local| after[local]);
+            self.gather_waiting(changed);
+            let velocity = |mover: usize| changed(mover).unwrap_or(self.movers[mover].velocity);
             let mut more = self.places_of(&moved);
             more.retain(|index| {
                 let spot = &self.places[*index].spot;
@@ -41,6 +38,17 @@ impl Instant<'_> {
             struck.append(&mut more);
             earlier = blows;
         }
+    }
+
+    /// The change of speed (m/s) that is not worth a sweep in a round in which these push: where none bounces, a share of the rest
+    /// threshold of what gravity alone presses. Of a wall, to which nothing presses, the threshold is rounding.
+    fn negligible(&self, struck: &[usize]) -> f64 {
+        let places = || struck.iter().map(|&index| &self.places[index]);
+        if places().any(|place| place.spot.contact.restitution > 0.0) {
+            return 0.0;
+        }
+        let least = places().map(|place| place.rest_speed).fold(f64::MAX, f64::min);
+        NEGLIGIBLE * least.max(self.law.rest_speed())
     }
 
     /// Gives the bodies their impulses; returns the movers whose velocities change.
