@@ -1,7 +1,6 @@
 //! What holds the bodies that rest during a substep.
 
 use super::give::Held;
-use super::renew::{DRIFT, DRIFT_WITHIN};
 use super::{Rest, Span};
 use crate::bodies::Bodies;
 use crate::flight::Influence;
@@ -28,7 +27,7 @@ const LIVELY: f64 = 20.0;
 /// Sweeps that every contact gets in a substep, that an island in motion may take, and contacts times sweeps that one about to
 /// rest may.
 const SWEEPS: u32 = 2;
-const IN_MOTION: u32 = 40;
+const IN_MOTION: u32 = 12;
 const BUDGET: u32 = 40_000;
 
 /// Where the sweeps change a body's velocity by less than this share of what gravity does, the forces on it persist: in an island
@@ -45,8 +44,7 @@ impl Rest {
         }
         settle(bodies);
         let mut freed = Vec::new();
-        let limit = if span.from == 0.0 { DRIFT } else { DRIFT_WITHIN };
-        self.renew_moved(bodies, pairs, &held, (law, span, limit));
+        self.renew_moved(bodies, pairs, &held, (law, span));
         self.graph.measure(&self.rows.drifts);
         self.let_part(pairs);
         for row in held.into_iter().filter(|&row| !self.rows.is_held(row)) {

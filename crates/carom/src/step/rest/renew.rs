@@ -12,10 +12,8 @@ use crate::math::{DMat3, DVec3};
 use crate::solver::prepare::{Side, Terms, lane};
 use crate::step::pairs::{Pairs, Support};
 
-/// Motion of a body, as a share of its smallest collider's reach or in radians, after which its contacts are renewed: at
-/// the start of a step, and within one.
-pub(super) const DRIFT: f64 = 1e-3;
-pub(super) const DRIFT_WITHIN: f64 = 5e-3;
+/// Motion of a body, as a share of its smallest collider's reach or in radians, after which its contacts are renewed.
+const DRIFT: f64 = 5e-3;
 
 impl Rest {
     /// Looks at a pair closely: new geometry, old impulses. A pair that is out of reach rests no more.
@@ -96,17 +94,17 @@ impl Rest {
         pair.rests = !pair.supports.is_empty();
     }
 
-    /// Renews the contacts of the bodies that have moved further than `limit` from their anchors.
+    /// Renews the contacts of the bodies that have moved too far from their anchors.
     pub(super) fn renew_moved(
         &mut self,
         bodies: &mut Bodies,
         pairs: &mut Pairs,
         held: &[usize],
-        (law, span, limit): (RestLaw, Span, f64),
+        (law, span): (RestLaw, Span),
     ) {
         let mut has_moved = vec![false; bodies.states.len()];
         for &row in held {
-            if self.rows.read_drift(bodies, row, bodies.grains[row]) > limit {
+            if self.rows.read_drift(bodies, row, bodies.grains[row]) > DRIFT {
                 has_moved[row] = true;
                 self.rows.anchor(bodies, row);
             }
