@@ -18,6 +18,7 @@ pub(crate) mod events;
 pub(crate) mod finish;
 pub(crate) mod motion;
 pub(crate) mod pairs;
+pub(crate) mod pool;
 pub(crate) mod rest;
 
 use crate::impacts::time_of_impact::RestLaw;
