@@ -47,7 +47,7 @@ pub(crate) fn step(world: &mut World, time: f64) {
         events.substep(Span { from: at(number), until: at(number + 1) });
     }
     let impacts = events.finish();
-    motion::finish_flight(&mut world.bodies, time);
+    motion::finish_flight(&mut world.bodies, time, &world.pool);
     contacts::settle(&mut world.bodies);
     collisions::book(&mut world.bodies, &impacts);
 

@@ -88,6 +88,11 @@ impl Graph {
         Self { machine, pool, ..Self::default() }
     }
 
+    /// The threads that solve it.
+    pub fn pool(&self) -> &Pool {
+        &self.pool
+    }
+
     /// Adds a contact between the bodies of two rows; `movable` tells which of them an impulse can move.
     pub fn insert(&mut self, rows: [u32; 2], movable: [bool; 2], lane: &Lane) -> ContactId {
         let kind = if movable == [true, true] { MOVING } else { FIXED };

@@ -40,6 +40,12 @@ impl Pool {
         Self { threads, crew: OnceLock::new() }
     }
 
+    /// Whether there has been enough to do for workers.
+    #[cfg(test)]
+    pub fn has_workers(&self) -> bool {
+        self.crew.get().is_some()
+    }
+
     /// Each item's result, in their order; a unit has at least `grain` items, worth some microseconds. Deterministic if `map` is a
     /// function of the item alone.
     pub fn map<T: Sync, R: Send>(&self, items: &[T], grain: usize, map: impl Fn(&T) -> R + Sync) -> Vec<R> {

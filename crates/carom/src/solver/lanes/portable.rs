@@ -77,9 +77,9 @@ impl<const N: usize> Lanes for Portable<N> {
     #[inline(always)]
     fn gather(rows: impl Source, indices: &[u32]) -> [Self; 8] {
         let mut columns = [Self([0.0; N]); 8];
-        for lane in 0..N {
+        for (lane, &index) in indices[..N].iter().enumerate() {
             // SAFETY: a source's rows can be read; no other thread writes to those of this bundle.
-            let row = unsafe { *rows.at(indices[lane]) };
+            let row = unsafe { *rows.at(index) };
             for (column, value) in columns.iter_mut().zip(row.0) {
                 column.0[lane] = value;
             }
@@ -89,10 +89,10 @@ impl<const N: usize> Lanes for Portable<N> {
 
     #[inline(always)]
     fn scatter(columns: [Self; 8], rows: SharedRows<'_>, indices: &[u32]) {
-        for lane in 0..N {
+        for (lane, &index) in indices[..N].iter().enumerate() {
             if columns[WRITABLE].0[lane] != 0.0 {
                 // SAFETY: what is writable is this bundle's alone.
-                unsafe { *rows.at_mut(indices[lane]) = Row(columns.map(|column| column.0[lane])) };
+                unsafe { *rows.at_mut(index) = Row(columns.map(|column| column.0[lane])) };
             }
         }
     }

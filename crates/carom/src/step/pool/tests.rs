@@ -115,12 +115,12 @@ fn a_unit_that_uses_the_pool_has_it_to_itself() {
 fn no_thread_is_started_for_what_is_too_small_and_none_outlives_the_world() {
     let pool = Pool::new(4);
     assert_eq!(pool.map(&[1, 2, 3], 2, |it| it + 1), [2, 3, 4]);
-    assert!(pool.crew.get().is_none());
+    assert!(!pool.has_workers());
 
     let world = crate::World::with_settings(crate::Settings { threads: 4, ..crate::Settings::default() });
     let pool = Arc::downgrade(&world.pool);
     pool.upgrade().unwrap().ranges(4, 1, |_| ());
-    assert!(world.pool.crew.get().is_some());
+    assert!(world.pool.has_workers());
     drop(world);
     assert_eq!(pool.strong_count(), 0);
 }
