@@ -64,7 +64,7 @@ pub(crate) fn advance_all(bodies: &mut Bodies, rows: &[usize], time: f64, pool: 
 }
 
 /// Flights that are worth a thread's while.
-const FLIGHTS: usize = 64;
+const FLIGHTS: usize = 256;
 
 fn is_behind(bodies: &Bodies, row: usize, time: f64) -> bool {
     row != WORLD_ROW && bodies.clocks[row] < time

@@ -124,3 +124,9 @@ fn no_thread_is_started_for_what_is_too_small_and_none_outlives_the_world() {
     drop(world);
     assert_eq!(pool.strong_count(), 0);
 }
+
+/// A world, pool and all, may go to another thread; else this does not compile.
+const _: fn() = || {
+    fn may_go<T: Send + Sync>() {}
+    may_go::<crate::World>();
+};
