@@ -57,7 +57,7 @@ pub struct SimulationArguments {
     /// Substeps of a step in place of the scene's, 1 to 1000.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub substeps: Option<u32>,
-    /// How many threads to use. The engine is serial for now: any number gives the same, at the same speed.
+    /// How many threads to use; any number gives the same, to the last bit [default: one for each core].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
     pub threads: Option<u32>,
     /// No progress bar and no notes on stderr.

@@ -15,6 +15,11 @@ use std::time::{Duration, Instant};
 /// Simulated where the arguments say neither steps nor seconds, s.
 const DEFAULT_SECONDS: f64 = 10.0;
 
+/// How many threads can run at once here.
+fn cores() -> u32 {
+    std::thread::available_parallelism().map_or(1, |cores| u32::try_from(cores.get()).unwrap_or(u32::MAX))
+}
+
 /// A scene that is ready to run.
 pub struct Simulation {
     /// What the scene is called.
@@ -64,6 +69,7 @@ impl Simulation {
         if let Some(substeps) = arguments.substeps {
             scene.settings.substeps = substeps;
         }
+        scene.settings.threads = arguments.threads.unwrap_or_else(cores);
         let dt = arguments.dt.unwrap_or(scene.dt);
         let n_steps = arguments.steps.unwrap_or_else(|| {
             // A float too large for the type becomes its largest value.

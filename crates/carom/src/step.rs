@@ -18,6 +18,7 @@ pub(crate) mod events;
 pub(crate) mod finish;
 pub(crate) mod motion;
 pub(crate) mod pairs;
+pub(crate) mod pool;
 pub(crate) mod rest;
 
 use crate::impacts::time_of_impact::RestLaw;
@@ -46,7 +47,7 @@ pub(crate) fn step(world: &mut World, time: f64) {
         events.substep(Span { from: at(number), until: at(number + 1) });
     }
     let impacts = events.finish();
-    motion::finish_flight(&mut world.bodies, time);
+    motion::finish_flight(&mut world.bodies, time, &world.pool);
     contacts::settle(&mut world.bodies);
     collisions::book(&mut world.bodies, &impacts);
 

@@ -11,7 +11,9 @@ use crate::report::StepReport;
 use crate::solver::lanes::{InstructionSet, Machine};
 use crate::step::broad_phase::BroadPhase;
 use crate::step::pairs::Pairs;
+use crate::step::pool::Pool;
 use crate::step::rest::Rest;
+use std::sync::Arc;
 
 /// What holds for the whole world.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,6 +28,10 @@ pub struct Settings {
     /// Instructions that the solver computes with: by default the widest that this machine has. They decide how fast it is, and
     /// not a bit of the result. Of what the machine lacks the next narrower one is taken.
     pub instruction_set: InstructionSet,
+    /// Threads that share the work of a step, the one that calls [`World::step`] among them: by default that one alone. They decide how
+    /// fast it is, and not a bit of the result. The others are started when a step has enough work for them, wait asleep
+    /// between steps, and end with the world. At least 1.
+    pub threads: u32,
 }
 
 impl Default for Settings {
@@ -35,6 +41,7 @@ impl Default for Settings {
             substeps: 4,
             ledger: false,
             instruction_set: InstructionSet::default(),
+            threads: 1,
         }
     }
 }
@@ -79,6 +86,7 @@ pub struct World {
     pub(crate) broad_phase: BroadPhase,
     pub(crate) pairs: Pairs,
     pub(crate) rest: Rest,
+    pub(crate) pool: Arc<Pool>,
     pub(crate) report: StepReport,
     pub(crate) ledger: Ledger,
     /// Bodies refused since the last step.
@@ -97,12 +105,15 @@ impl World {
         let mut bodies = Bodies::new();
         ledger::keep(&mut bodies, settings.ledger);
         let instruction_set = settings.instruction_set.or_narrower();
+        let threads = settings.threads.max(1);
+        let pool = Arc::new(Pool::new(threads as usize));
         Self {
-            settings: Settings { instruction_set, ..settings },
+            settings: Settings { instruction_set, threads, ..settings },
             bodies,
             broad_phase: BroadPhase::new(),
             pairs: Pairs::default(),
-            rest: Rest::new(Machine::new(instruction_set)),
+            rest: Rest::new(Machine::new(instruction_set), Arc::clone(&pool)),
+            pool,
             report: StepReport::default(),
             ledger: Ledger::default(),
             refused: Vec::new(),

@@ -1,4 +1,5 @@
-//! Every instruction set gives the same bits and tells the same events in the same order, at every level of optimisation.
+//! Every instruction set on any number of threads gives the same bits and tells the same events in the same order, at every level of
+//! optimisation.
 //!
 //! The hashes below hold for x86-64. Who changes what the engine computes changes them on purpose: a failing test tells the new
 //! ones. Debug and release builds are held to the same.
@@ -31,9 +32,9 @@ struct Outcome {
     impacts: usize,
 }
 
-fn run(scene: &Scene, instruction_set: InstructionSet) -> Outcome {
-    let mut world =
-        World::with_settings(Settings { gravity: scene.gravity, instruction_set, ..Settings::default() });
+fn run(scene: &Scene, (instruction_set, threads): (InstructionSet, u32)) -> Outcome {
+    let settings = Settings { gravity: scene.gravity, instruction_set, threads, ..Settings::default() };
+    let mut world = World::with_settings(settings);
     for body in &scene.bodies {
         world.try_add(body.clone()).unwrap();
     }
@@ -161,29 +162,50 @@ fn stack() -> Scene {
     Scene::new("stack", 100, bodies)
 }
 
-/// The hashes of states and events of [pile, mesh, gas, cradle, stack].
-const EXPECTED: [[u64; 2]; 5] = [
+/// Pairs of boxes that drop and slide about on a floor: enough of them for threads to share their contacts.
+fn crowd() -> Scene {
+    let mut random = Random(34);
+    let mut bodies = vec![floor().friction(0.4)];
+    for number in 0..560_u32 {
+        let [x, z] = [number / 2 % 20, number / 40].map(|index| 1.2 * f64::from(index));
+        let velocity = random.vector(1.0).as_vec3();
+        let body = Body::dynamic()
+            .at(x, 0.52 + 1.04 * f64::from(number % 2), z)
+            .moving(velocity.x, 0.0, velocity.z)
+            .with(Shape::cuboid(1.0, 1.0, 1.0));
+        bodies.push(body.friction(random.range(0.2, 0.8)));
+    }
+    Scene::new("crowd", 12, bodies)
+}
+
+const THREADS: [u32; 3] = [1, 2, 4];
+
+/// The hashes of states and events of [pile, mesh, gas, cradle, stack, crowd].
+const EXPECTED: [[u64; 2]; 6] = [
     [0x3fb4_76d7_2af5_0bf2, 0x2254_0150_9067_752e],
     [0xf3d3_cfce_6fb1_aacc, 0x3e85_1ff1_255f_3cd1],
     [0x82e7_4950_5da6_dd2e, 0xcf19_842b_7889_4af9],
     [0xc1e1_fd04_731e_91a0, 0xf840_eec8_201f_e158],
     [0x29e3_9c14_293c_0de8, 0x720f_55f0_58ed_ec5e],
+    [0xaf2d_3534_16dd_1a81, 0x9da4_6d71_7726_5702],
 ];
 
 #[test]
-fn all_instruction_sets_give_the_same_bits() {
+fn all_instruction_sets_and_numbers_of_threads_give_the_same_bits() {
     let (sets, missing): (Vec<_>, Vec<_>) =
         InstructionSet::ALL.into_iter().partition(|set| set.is_available());
     missing.iter().for_each(|set| println!("{set:?}: not tested, this machine does not have it"));
+    let rows: Vec<(InstructionSet, u32)> =
+        sets.iter().flat_map(|&set| THREADS.map(|threads| (set, threads))).collect();
     let mut found = Vec::new();
-    let scenes = [pile(), mesh(), gas(), cradle(), stack()];
+    let scenes = [pile(), mesh(), gas(), cradle(), stack(), crowd()];
     for scene in scenes {
-        let outcomes: Vec<Outcome> = sets.iter().map(|&set| run(&scene, set)).collect();
-        for (outcome, set) in outcomes.iter().zip(&sets) {
-            assert_eq!(*outcome, outcomes[0], "{} with {set:?}", scene.name);
+        let outcomes: Vec<Outcome> = rows.iter().map(|&row| run(&scene, row)).collect();
+        for (outcome, (set, threads)) in outcomes.iter().zip(&rows) {
+            assert_eq!(*outcome, outcomes[0], "{} with {set:?} on {threads} threads", scene.name);
         }
         let it = outcomes[0];
-        println!("{}: {} impacts, the same with {sets:?}", scene.name, it.impacts);
+        println!("{}: {} impacts, the same with {sets:?} on {THREADS:?} threads", scene.name, it.impacts);
         assert!(it.impacts >= 3, "{}: {} impacts", scene.name, it.impacts);
         found.push([it.states, it.events]);
     }

@@ -21,6 +21,7 @@ pub(crate) use sweep::{sweep, sweep_normals};
 
 use super::bundle::{Bundle, POINTS, field};
 use super::lanes::{LANES, Lanes, Line, Row, Tensor, Vector};
+use super::rows::SharedRows;
 
 /// The contact frame of each lane.
 struct Frame<L> {
@@ -99,7 +100,7 @@ fn angular<L: Lanes>(row: &[L; 8]) -> Vector<L> {
 
 impl<L: Lanes> Pair<L> {
     #[inline(always)]
-    fn gather(bundle: &Bundle, velocities: &[Row], part: usize) -> Self {
+    fn gather(bundle: &Bundle, velocities: SharedRows<'_>, part: usize) -> Self {
         Self {
             a: L::gather(velocities, indices(&bundle.a, part, L::WIDTH)),
             b: L::gather(velocities, indices(&bundle.b, part, L::WIDTH)),
@@ -131,7 +132,7 @@ impl<L: Lanes> Pair<L> {
 }
 
 #[inline(always)]
-fn scatter<L: Lanes>(bundle: &Bundle, [a, b]: [[L; 8]; 2], velocities: &mut [Row], part: usize) {
+fn scatter<L: Lanes>(bundle: &Bundle, [a, b]: [[L; 8]; 2], velocities: SharedRows<'_>, part: usize) {
     L::scatter(a, velocities, indices(&bundle.a, part, L::WIDTH));
     L::scatter(b, velocities, indices(&bundle.b, part, L::WIDTH));
 }
@@ -181,7 +182,7 @@ pub(crate) fn begin<L: Lanes>(bundle: &mut Bundle, velocities: &[Row], [margin, 
 
 /// Lets the impulses of the substep before act again.
 #[inline(always)]
-pub(crate) fn resume<L: Lanes>(bundle: &Bundle, velocities: &mut [Row]) {
+pub(crate) fn resume<L: Lanes>(bundle: &Bundle, velocities: SharedRows<'_>) {
     for part in 0..LANES / L::WIDTH {
         let mut impulses = [L::splat(0.0); field::ROWS];
         for (row, impulse) in impulses.iter_mut().enumerate() {
@@ -232,7 +233,7 @@ pub(crate) fn work<L: Lanes>(bundle: &Bundle, before: &[Row], after: &[Row]) -> 
 
 /// Lets impulses, in the order of [`field::IMPULSES`], act on both bodies.
 #[inline(always)]
-fn apply<L: Lanes>(bundle: &Bundle, velocities: &mut [Row], impulses: &[L; field::ROWS], part: usize) {
+fn apply<L: Lanes>(bundle: &Bundle, velocities: SharedRows<'_>, impulses: &[L; field::ROWS], part: usize) {
     let [first, second, third, fourth, x, y, twist] = *impulses;
     let zero = L::splat(0.0);
     let across = Vector::new(x, y, zero);

@@ -5,19 +5,23 @@
 //! bodies that move come first, those with the ground last, so that in doubt nothing is pushed into the ground.
 //!
 //! Bodies that contacts connect make an *island* (`graph/islands.rs`). What is done until the velocities of an island agree
-//! stands in `graph/agree.rs`; what contacts then exert, in `graph/wrench.rs`.
+//! stands in `graph/agree.rs`, how threads share a pass over all contacts in `graph/passes.rs`; what contacts then exert, in
+//! `graph/wrench.rs`.
 
 mod agree;
 mod islands;
+mod passes;
 mod wrench;
 
 pub(crate) use agree::Effort;
 pub(crate) use wrench::Wrench;
 
 use super::bundle::{Bundle, Lane, POINTS, field};
-use super::kernels::{Begin, Measure, Resume, SweepNormals, Work};
+use super::kernels::Work;
 use super::lanes::{LANES, Line, Machine, Row};
+use crate::step::pool::Pool;
 use islands::Islands;
+use std::sync::Arc;
 
 /// Names a contact as long as it lasts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -75,12 +79,18 @@ pub(crate) struct Graph {
     free: Vec<u32>,
     islands: Islands,
     machine: Machine,
+    pool: Arc<Pool>,
 }
 
 impl Graph {
-    /// No contacts, to be solved with these instructions.
-    pub fn new(machine: Machine) -> Self {
-        Self { machine, ..Self::default() }
+    /// No contacts, to be solved with these instructions by these threads.
+    pub fn new(machine: Machine, pool: Arc<Pool>) -> Self {
+        Self { machine, pool, ..Self::default() }
+    }
+
+    /// The threads that solve it.
+    pub fn pool(&self) -> &Pool {
+        &self.pool
     }
 
     /// Adds a contact between the bodies of two rows; `movable` tells which of them an impulse can move.
@@ -183,39 +193,13 @@ impl Graph {
         self.islands.is_stale = true;
     }
 
-    /// Colours in the order in which they are swept.
-    fn order(&self) -> impl Iterator<Item = usize> + use<> {
-        let count = self.colors.len();
-        (MOVING..count).step_by(KINDS).chain((FIXED..count).step_by(KINDS))
-    }
-
-    /// One colour after the other.
-    fn each_color(&mut self, mut act: impl FnMut(Machine, &mut [Bundle])) {
-        for color in self.order() {
-            act(self.machine, &mut self.colors[color].bundles);
-        }
-    }
-
-    fn each_bundle(&mut self, mut act: impl FnMut(&mut Bundle)) {
-        for color in self.order() {
-            self.colors[color].bundles.iter_mut().for_each(&mut act);
-        }
-    }
-
-    /// Finds all separations from the bodies' drifts.
-    pub fn measure(&mut self, drifts: &[Row]) {
-        self.each_color(|machine, bundles| machine.run(Measure { bundles, drifts }));
-    }
-
     /// Lets the impulses of the last substep act again, where they are a good start.
     ///
     /// They are asked for work only in islands whose bodies move faster than `lively` against each other: near rest their
     /// work is noise.
     pub fn begin(&mut self, velocities: &mut [Row], [margin, lively]: [f64; 2], substep: f64) {
-        let limits = [margin as f32, (1.0 / substep) as f32];
         let before = velocities.to_vec();
-        self.each_color(|machine, bundles| machine.run(Begin { bundles, velocities, limits }));
-        self.each_color(|machine, bundles| machine.run(Resume { bundles, velocities }));
+        self.resume((&before, velocities), [margin as f32, (1.0 / substep) as f32]);
         self.find_islands(velocities.len());
         self.refuse_gains(&before, velocities, lively);
     }
@@ -229,9 +213,11 @@ impl Graph {
             return;
         }
         let mut gains = vec![0.0; is_lively.len()];
-        for Color { bundles, .. } in &self.colors {
-            let work = self.machine.run(Work { bundles, before, after: velocities });
-            for (bundle, work) in bundles.iter().zip(work) {
+        for color in 0..self.colors.len() {
+            let works = self.each_stretch(color, |machine, bundles| {
+                machine.run(Work { bundles, before, after: velocities })
+            });
+            for (bundle, work) in self.colors[color].bundles.iter().zip(works.into_iter().flatten()) {
                 for (lane, work) in work.0.into_iter().enumerate() {
                     if let Some(island) = self.island_of(bundle, lane) {
                         gains[island] += f64::from(work);
@@ -281,7 +267,7 @@ impl Graph {
             }
         });
         for _ in 0..PUSH_SWEEPS {
-            self.each_color(|machine, bundles| machine.run(SweepNormals { bundles, displacements }));
+            self.sweep_normals(displacements);
         }
         let wrenches = self.wrenches(displacements);
         let mut impulses = impulses.into_iter();

@@ -1,9 +1,10 @@
 //! The arithmetic of [`contact`](super::contact) for the bundles of a colour: one call for all of them, which a
 //! [`Machine`](super::lanes::Machine) makes with its widest instructions.
 
-use super::bundle::Bundle;
+use super::bundle::{Bundle, field};
 use super::contact::{begin, measure, resume, sweep, sweep_normals, work};
 use super::lanes::{Kernel, Lanes, Line, Row};
+use super::rows::SharedRows;
 
 /// [`measure`].
 pub(crate) struct Measure<'a> {
@@ -22,10 +23,12 @@ impl Kernel for Measure<'_> {
     }
 }
 
-/// [`begin`].
+/// [`begin`], and [`resume`] with the impulses of the substep before.
 pub(crate) struct Begin<'a> {
     pub bundles: &'a mut [Bundle],
-    pub velocities: &'a [Row],
+    /// Velocities of bodies that nothing has pushed yet.
+    pub before: &'a [Row],
+    pub velocities: SharedRows<'a>,
     /// Margin (m) and rate (1/s).
     pub limits: [f32; 2],
 }
@@ -36,23 +39,7 @@ impl Kernel for Begin<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self) {
         for bundle in self.bundles {
-            begin::<L>(bundle, self.velocities, self.limits);
-        }
-    }
-}
-
-/// [`resume`].
-pub(crate) struct Resume<'a> {
-    pub bundles: &'a [Bundle],
-    pub velocities: &'a mut [Row],
-}
-
-impl Kernel for Resume<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<L: Lanes>(self) {
-        for bundle in self.bundles {
+            begin::<L>(bundle, self.before, self.limits);
             resume::<L>(bundle, self.velocities);
         }
     }
@@ -78,45 +65,44 @@ impl Kernel for Work<'_> {
     }
 }
 
-/// [`sweep`] over all.
+/// [`sweep`]; comes to the indices of the bundles in which a velocity has changed by more than `agreement`, m/s.
 pub(crate) struct Sweep<'a> {
     pub bundles: &'a mut [Bundle],
-    pub velocities: &'a mut [Row],
+    /// Which of the bundles, if not all.
+    pub chosen: Option<&'a [bool]>,
+    pub velocities: SharedRows<'a>,
+    pub agreement: f32,
 }
 
 impl Kernel for Sweep<'_> {
-    type Output = ();
+    type Output = Vec<usize>;
 
     #[inline(always)]
-    fn run<L: Lanes>(self) {
-        for bundle in self.bundles {
+    fn run<L: Lanes>(self) -> Vec<usize> {
+        let mut open = Vec::new();
+        for (index, bundle) in self.bundles.iter_mut().enumerate() {
+            if let Some(chosen) = self.chosen
+                && !chosen[index]
+            {
+                continue;
+            }
             sweep::<L>(bundle, self.velocities);
+            let mut is_open = false;
+            for residual in bundle.lines[field::RESIDUAL].0 {
+                is_open |= residual > self.agreement;
+            }
+            if is_open {
+                open.push(index);
+            }
         }
-    }
-}
-
-/// [`sweep`] over those `chosen`, by their indices.
-pub(crate) struct SweepSome<'a> {
-    pub bundles: &'a mut [Bundle],
-    pub chosen: &'a [usize],
-    pub velocities: &'a mut [Row],
-}
-
-impl Kernel for SweepSome<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<L: Lanes>(self) {
-        for &index in self.chosen {
-            sweep::<L>(&mut self.bundles[index], self.velocities);
-        }
+        open
     }
 }
 
 /// [`sweep_normals`].
 pub(crate) struct SweepNormals<'a> {
     pub bundles: &'a mut [Bundle],
-    pub displacements: &'a mut [Row],
+    pub displacements: SharedRows<'a>,
 }
 
 impl Kernel for SweepNormals<'_> {

@@ -19,6 +19,7 @@ pub use machine::InstructionSet;
 pub(crate) use machine::{Kernel, Machine};
 pub(crate) use portable::Portable;
 
+use super::rows::{SharedRows, Source};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// Contacts in a bundle.
@@ -77,10 +78,10 @@ pub(crate) trait Lanes:
     fn select_greater(left: Self, right: Self, choices: [Self; 2]) -> Self;
 
     /// Column by column, the rows that `indices` names.
-    fn gather(rows: &[Row], indices: &[u32]) -> [Self; 8];
+    fn gather(rows: impl Source, indices: &[u32]) -> [Self; 8];
 
     /// Writes columns back into the rows that `indices` names, where they are writable.
-    fn scatter(columns: [Self; 8], rows: &mut [Row], indices: &[u32]);
+    fn scatter(columns: [Self; 8], rows: SharedRows<'_>, indices: &[u32]);
 }
 
 /// A vector in each lane.

@@ -3,9 +3,12 @@
 //! World positions are far too large for single precision, so that what is kept here is relative: velocities, and the motion
 //! since the body's *anchor*, the pose that it had when its contacts were last looked at closely.
 
+#![allow(unsafe_code, reason = "rows that several threads change at once, each its own")]
+
 use super::lanes::{Row, WRITABLE};
 use crate::bodies::{Bodies, WORLD_ROW};
 use crate::math::{DVec3, Pose};
+use std::cell::UnsafeCell;
 
 /// All bodies' rows; row 0 is the world's.
 pub(crate) struct Rows {
@@ -152,5 +155,59 @@ impl Rows {
     pub fn drift(&self, row: usize) -> (DVec3, [f64; 4]) {
         let [x, y, z, i, j, k, w, _] = self.drifts[row].0.map(f64::from);
         (DVec3::new(x, y, z), [i, j, k, w])
+    }
+}
+
+/// Rows that a kernel gathers from.
+///
+/// # Safety
+/// What `at` points to can be read as long as the source is there.
+pub(crate) unsafe trait Source: Copy {
+    /// The row of this index.
+    fn at(self, index: u32) -> *const Row;
+}
+
+// SAFETY: it points to a row of the slice.
+unsafe impl Source for &[Row] {
+    #[inline(always)]
+    fn at(self, index: u32) -> *const Row {
+        &raw const self[index as usize]
+    }
+}
+
+/// Rows that several threads read and change at once: those of the bodies of one colour's contacts, for a sweep over its bundles.
+///
+/// A row that is writable belongs to a body that can be moved, and such a body has at most one contact of a colour: `Graph::insert`
+/// sees to it, and `Graph::validate` holds it to that in tests. So one thread at most reads and writes this row, that which has the
+/// bundle of this contact. All others, the world's before all, are only read: [`Lanes::scatter`](super::lanes::Lanes::scatter) leaves
+/// out what is not [`WRITABLE`].
+#[derive(Clone, Copy)]
+pub(crate) struct SharedRows<'a>(&'a [Slot]);
+
+#[repr(transparent)]
+struct Slot(UnsafeCell<Row>);
+
+// SAFETY: no two threads are at one slot, unless both only read; see `SharedRows`.
+unsafe impl Sync for Slot {}
+
+impl<'a> SharedRows<'a> {
+    /// Rows that nobody else has for now.
+    pub fn new(rows: &'a mut [Row]) -> Self {
+        // SAFETY: a slot is a row in memory, and the rows are borrowed for good.
+        Self(unsafe { &*(std::ptr::from_mut(rows) as *const [Slot]) })
+    }
+
+    /// The row of this index, to be changed if it is writable.
+    #[inline(always)]
+    pub fn at_mut(self, index: u32) -> *mut Row {
+        self.0[index as usize].0.get()
+    }
+}
+
+// SAFETY: it points to a row of the slice.
+unsafe impl Source for SharedRows<'_> {
+    #[inline(always)]
+    fn at(self, index: u32) -> *const Row {
+        self.at_mut(index)
     }
 }

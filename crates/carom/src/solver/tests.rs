@@ -14,6 +14,7 @@ use super::contact::sweep;
 use super::direct::{Island, Mobility};
 use super::lanes::{Portable, Row};
 use super::prepare::{Remembered, Side, Terms, lane};
+use super::rows::SharedRows;
 use crate::collide::ContactPoint;
 use crate::impulse::Velocity;
 use crate::material::Surface;
@@ -205,7 +206,7 @@ impl Problem {
     pub fn swept(&self, count: usize) -> (Vec<Row>, Vec<Bundle>) {
         let (mut rows, mut bundles) = (self.rows(), self.bundles());
         for _ in 0..count {
-            bundles.iter_mut().for_each(|bundle| sweep::<Portable<1>>(bundle, &mut rows));
+            bundles.iter_mut().for_each(|bundle| sweep::<Portable<1>>(bundle, SharedRows::new(&mut rows)));
         }
         (rows, bundles)
     }

@@ -5,6 +5,7 @@ use crate::flight::{Influence, RigidState, fly, fly_center, mean_center};
 use crate::impacts::time_of_impact::RestLaw;
 use crate::ledger::flights::{flown, kept_to_plan};
 use crate::math::DVec3;
+use crate::step::pool::Pool;
 
 /// Sets all clocks to the start of a step of `time` seconds, and what gravity and the user's forces do during it.
 pub(crate) fn begin_flight(bodies: &mut Bodies, gravity: DVec3, time: f64) {
@@ -46,12 +47,33 @@ pub(crate) fn rouse(bodies: &mut Bodies, row: usize, law: RestLaw, time: f64) {
 
 /// Advances one body along its flight to `time` within the step.
 pub(crate) fn advance(bodies: &mut Bodies, row: usize, time: f64) {
-    if row == WORLD_ROW || bodies.clocks[row] >= time {
-        return;
+    if is_behind(bodies, row, time) {
+        arrive(bodies, row, &state_at(bodies, row, time), time);
     }
+}
+
+/// The same for many, shared out among the threads of `pool`.
+pub(crate) fn advance_all(bodies: &mut Bodies, rows: &[usize], time: f64, pool: &Pool) {
+    let flown = |&row: &usize| is_behind(bodies, row, time).then(|| state_at(bodies, row, time));
+    let states = pool.map(rows, FLIGHTS, flown);
+    for (&row, state) in rows.iter().zip(states) {
+        if let Some(state) = state {
+            arrive(bodies, row, &state, time);
+        }
+    }
+}
+
+/// Flights that are worth a thread's while.
+const FLIGHTS: usize = 256;
+
+fn is_behind(bodies: &Bodies, row: usize, time: f64) -> bool {
+    row != WORLD_ROW && bodies.clocks[row] < time
+}
+
+/// A body has got to `state` at `time`.
+fn arrive(bodies: &mut Bodies, row: usize, state: &RigidState, time: f64) {
     bodies.ways[row] = bodies.way(row, time);
-    let before = bodies.states[row];
-    bodies.states[row] = state_at(bodies, row, time);
+    let before = std::mem::replace(&mut bodies.states[row], *state);
     if bodies.journal.is_some() {
         flown(bodies, row, &before, time - bodies.clocks[row]);
     }
@@ -117,8 +139,7 @@ pub(crate) fn state_at(bodies: &Bodies, row: usize, time: f64) -> RigidState {
 }
 
 /// Lets all bodies fly from where they are to the end of the step.
-pub(crate) fn finish_flight(bodies: &mut Bodies, time: f64) {
-    for row in bodies.rows() {
-        advance(bodies, row, time);
-    }
+pub(crate) fn finish_flight(bodies: &mut Bodies, time: f64, pool: &Pool) {
+    let rows: Vec<usize> = bodies.rows().collect();
+    advance_all(bodies, &rows, time, pool);
 }

@@ -39,7 +39,9 @@ use crate::solver::lanes::Machine;
 use crate::solver::rows::Rows;
 use crate::step::motion::advance;
 use crate::step::pairs::{Pair, Pairs, Support};
+use crate::step::pool::Pool;
 use crowds::Crowds;
+use std::sync::Arc;
 
 /// Contacts, and the bodies that they hold.
 pub(crate) struct Rest {
@@ -60,10 +62,10 @@ pub(crate) struct Span {
 }
 
 impl Rest {
-    /// Nothing rests yet; what will is solved with the instructions of `machine`.
-    pub fn new(machine: Machine) -> Self {
+    /// Nothing rests yet; what will is solved with the instructions of `machine`, by the threads of `pool`.
+    pub fn new(machine: Machine, pool: Arc<Pool>) -> Self {
         Self {
-            graph: Graph::new(machine),
+            graph: Graph::new(machine, pool),
             rows: Rows::new(),
             resting: Vec::new(),
             crowds: Crowds::default(),

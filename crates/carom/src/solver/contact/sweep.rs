@@ -2,11 +2,12 @@
 
 use super::{Frame, Pair, angular, line, linear, scatter, vector};
 use crate::solver::bundle::{Bundle, POINTS, field};
-use crate::solver::lanes::{LANES, Lanes, Row, Vector};
+use crate::solver::lanes::{LANES, Lanes, Vector};
+use crate::solver::rows::SharedRows;
 
 /// One sweep over a bundle: each point, then the twist, then friction.
 #[inline(always)]
-pub(crate) fn sweep<L: Lanes>(bundle: &mut Bundle, velocities: &mut [Row]) {
+pub(crate) fn sweep<L: Lanes>(bundle: &mut Bundle, velocities: SharedRows<'_>) {
     for part in 0..LANES / L::WIDTH {
         let frame = Frame::<L>::load(bundle, part);
         let pair = Pair::gather(bundle, velocities, part);
@@ -25,7 +26,7 @@ pub(crate) fn sweep<L: Lanes>(bundle: &mut Bundle, velocities: &mut [Row]) {
 
 /// One sweep over the normals alone: with displacements in place of velocities, it pushes overlaps out.
 #[inline(always)]
-pub(crate) fn sweep_normals<L: Lanes>(bundle: &mut Bundle, displacements: &mut [Row]) {
+pub(crate) fn sweep_normals<L: Lanes>(bundle: &mut Bundle, displacements: SharedRows<'_>) {
     for part in 0..LANES / L::WIDTH {
         let frame = Frame::<L>::load(bundle, part);
         let pair = Pair::gather(bundle, displacements, part);

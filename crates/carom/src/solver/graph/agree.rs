@@ -7,10 +7,10 @@
 //! Conjugate gradients over sweeps (Silcowitz, Niebe and Erleben 2010) carry further, but overshoot where many contacts come
 //! and go: piles that plain sweeps bring to rest went on shaking with them.
 
-use super::Graph;
+use super::passes::{Chosen, GLANCES, Spot};
+use super::{Color, Graph};
 use crate::solver::bundle::{Bundle, field};
 use crate::solver::direct::{self, Mobility};
-use crate::solver::kernels::{Sweep, SweepSome};
 use crate::solver::lanes::{LANES, Row};
 
 /// How far islands are swept.
@@ -36,22 +36,27 @@ const ROUND: u32 = 4;
 /// Substeps to wait before an island that could not be solved directly is tried again.
 const PAUSE: u32 = 16;
 
+/// Contacts from which on islands that are solved directly are shared out among the threads.
+const WORTH_SHARING: usize = 64;
+
 impl Graph {
     /// Sweeps until velocities agree, island by island. `mobility` tells of a row how impulses move it, if they do.
     pub fn solve(
         &mut self,
         velocities: &mut [Row],
         effort: Effort,
-        mobility: impl Fn(u32) -> Option<Mobility>,
+        mobility: impl Fn(u32) -> Option<Mobility> + Sync,
     ) {
-        for _ in 0..effort.sweeps {
-            self.each_color(|machine, bundles| machine.run(Sweep { bundles, velocities }));
-        }
+        (1..effort.sweeps).for_each(|_| drop(self.sweep(velocities, None, f32::INFINITY)));
+        let open = self.sweep(velocities, None, effort.exactness.min(effort.agreement));
         self.find_islands(velocities.len());
+        if open.is_empty() {
+            return;
+        }
         // Islands that are about to rest: no body moves fast against another.
         let quiet: Vec<bool> =
             self.spreads(velocities).iter().map(|&spread| spread <= effort.quiet).collect();
-        self.solve_small(velocities, (effort, &quiet), &mobility);
+        self.solve_small(velocities, (effort, &quiet, &open), mobility);
         let sizes = self.islands.sizes.iter().zip(&quiet);
         let most: Vec<u32> =
             sizes
@@ -63,43 +68,39 @@ impl Graph {
                     }
                 })
                 .collect();
-        self.sweep_on(velocities, effort, &most);
+        self.sweep_on(velocities, (effort, &most), open);
     }
 
     /// Sweeps on where velocities do not agree yet, in each island up to so many times: over the contacts of the bodies
     /// concerned, and of their neighbours. Without these, what is passed on to a neighbour would wait for the next look.
-    fn sweep_on(&mut self, velocities: &mut [Row], effort: Effort, most: &[u32]) {
+    ///
+    /// Only bundles that the last sweep has left `open` can be so now: what it left out it did because nothing there was, or
+    /// because no more sweeps are due to its island.
+    fn sweep_on(&mut self, velocities: &mut [Row], (effort, most): (Effort, &[u32]), mut open: Vec<Spot>) {
         let mut sweeps = effort.sweeps;
         loop {
-            let open = self.open_bodies(velocities.len(), effort.agreement, |island| sweeps < most[island]);
-            let is_open = self.with_neighbors(&open);
-            let concerned =
-                |bundle: &Bundle| bundle.a.iter().chain(&bundle.b).any(|&row| is_open[row as usize]);
-            let chosen: Vec<(usize, Vec<usize>)> = self
-                .order()
-                .map(|color| {
-                    let bundles = self.colors[color].bundles.iter().enumerate();
-                    (color, bundles.filter(|(_, it)| concerned(it)).map(|(index, _)| index).collect())
-                })
-                .filter(|(_, chosen): &(usize, Vec<usize>)| !chosen.is_empty())
-                .collect();
-            if chosen.is_empty() {
+            let may_go_on = |island: usize| sweeps < most[island];
+            let bodies = self.open_bodies(velocities.len(), (&open, effort.agreement), may_go_on);
+            if !bodies.contains(&true) {
                 return;
             }
-            for _ in 0..ROUND {
-                for (color, chosen) in &chosen {
-                    let bundles = &mut self.colors[*color].bundles;
-                    self.machine.run(SweepSome { bundles, chosen, velocities });
-                }
-            }
+            let chosen = self.choose(&self.with_neighbors(&bodies));
+            (1..ROUND).for_each(|_| drop(self.sweep(velocities, Some(&chosen), f32::INFINITY)));
+            open = self.sweep(velocities, Some(&chosen), effort.agreement);
             sweeps += ROUND;
         }
     }
 
     /// The bodies that a contact does not agree about, in islands that may be swept on.
-    fn open_bodies(&self, rows: usize, agreement: f32, may_go_on: impl Fn(usize) -> bool) -> Vec<bool> {
+    fn open_bodies(
+        &self,
+        rows: usize,
+        (open, agreement): (&[Spot], f32),
+        may_go_on: impl Fn(usize) -> bool,
+    ) -> Vec<bool> {
         let mut is_open = vec![false; rows];
-        for bundle in self.colors.iter().flat_map(|color| &color.bundles) {
+        for &(color, index) in open {
+            let bundle = &self.colors[color].bundles[index];
             for (lane, &residual) in bundle.lines[field::RESIDUAL].0.iter().enumerate() {
                 if residual > agreement {
                     for row in [bundle.a[lane], bundle.b[lane]] {
@@ -114,73 +115,112 @@ impl Graph {
     /// These bodies, and those that they touch.
     fn with_neighbors(&self, bodies: &[bool]) -> Vec<bool> {
         let mut result = bodies.to_vec();
-        for bundle in self.colors.iter().flat_map(|color| &color.bundles) {
-            for (&a, &b) in bundle.a.iter().zip(&bundle.b) {
-                if bodies[a as usize] != bodies[b as usize] {
-                    for row in [a, b] {
-                        result[row as usize] |= self.islands.of(row).is_some();
-                    }
-                }
+        for Color { bundles, .. } in &self.colors {
+            let found = self.pool.ranges(bundles.len(), GLANCES, |range| {
+                let lanes = bundles[range].iter().flat_map(|bundle| bundle.a.into_iter().zip(bundle.b));
+                let reached = lanes.filter(|&(a, b)| bodies[a as usize] != bodies[b as usize]);
+                reached.flat_map(|(a, b)| [a, b]).collect::<Vec<u32>>()
+            });
+            for row in found.into_iter().flatten() {
+                result[row as usize] |= self.islands.of(row).is_some();
             }
         }
         result
     }
 
-    /// Solves those small quiet islands directly whose velocities do not agree after the first sweeps.
+    /// The bundles with a contact of these bodies.
+    fn choose(&self, bodies: &[bool]) -> Vec<Chosen> {
+        let concerned = |bundle: &Bundle| bundle.a.iter().chain(&bundle.b).any(|&row| bodies[row as usize]);
+        let of_color = |Color { bundles, .. }: &Color| {
+            let stretches = self.pool.ranges(bundles.len(), GLANCES, |range| {
+                bundles[range].iter().map(concerned).collect::<Vec<bool>>()
+            });
+            let is_chosen: Vec<bool> = stretches.into_iter().flatten().collect();
+            let count = is_chosen.iter().filter(|it| **it).count();
+            Chosen { is_chosen, count }
+        };
+        self.colors.iter().map(of_color).collect()
+    }
+
+    /// Solves those small quiet islands directly whose velocities do not agree after the first sweeps, which has left these bundles
+    /// `open`. Islands share no body that can be moved, so that each is solved for itself.
     fn solve_small(
         &mut self,
         velocities: &mut [Row],
-        (effort, quiet): (Effort, &[bool]),
-        mobility: impl Fn(u32) -> Option<Mobility>,
+        (effort, quiet, open): (Effort, &[bool], &[Spot]),
+        mobility: impl Fn(u32) -> Option<Mobility> + Sync,
     ) {
-        let mut members: Vec<Vec<(usize, usize)>> = vec![Vec::new(); quiet.len()];
-        let mut is_open = vec![false; quiet.len()];
-        for color in self.order() {
-            for lane in 0..self.colors[color].contacts.len() {
-                let bundle = &self.colors[color].bundles[lane / LANES];
-                let Some(island) = self.island_of(bundle, lane % LANES) else { continue };
-                if quiet[island] && self.islands.bodies[island] <= direct::BODIES {
-                    members[island].push((color, lane));
-                    is_open[island] |= bundle.get(lane % LANES, field::RESIDUAL) > effort.exactness;
+        let mut is_due = vec![false; quiet.len()];
+        for &(color, index) in open {
+            let bundle = &self.colors[color].bundles[index];
+            for lane in (0..LANES).filter(|&lane| bundle.get(lane, field::RESIDUAL) > effort.exactness) {
+                if let Some(island) = self.island_of(bundle, lane) {
+                    is_due[island] |= quiet[island] && self.islands.bodies[island] <= direct::BODIES;
                 }
             }
         }
-        for (island, members) in members.iter().enumerate().filter(|(island, _)| is_open[*island]) {
-            if self.islands.pauses[island] > 0 {
-                self.islands.pauses[island] -= 1;
-                continue;
+        for (pause, is_due) in self.islands.pauses.iter_mut().zip(&mut is_due).filter(|(_, due)| **due) {
+            *is_due = *pause == 0;
+            *pause = pause.saturating_sub(1);
+        }
+        let due = self.members(&is_due);
+        let contacts: usize = due.iter().map(|(_, members)| members.len()).sum();
+        let grain = if contacts < WORTH_SHARING { due.len() } else { 1 };
+        let solved = self
+            .pool
+            .map(&due, grain, |(_, members)| self.solve_at_once(members, velocities, effort, &mobility));
+        for ((island, members), solved) in due.into_iter().zip(solved) {
+            self.islands.pauses[island] = if solved.is_some() { 0 } else { PAUSE };
+            if let Some(solved) = solved {
+                solved.write(velocities);
+                self.take_over(&members, &solved);
             }
-            let is_solved = self.solve_at_once(members, velocities, effort, &mobility);
-            self.islands.pauses[island] = if is_solved { 0 } else { PAUSE };
         }
     }
 
-    /// Solves the contacts of an island directly, if that leads to an exact solution; whether it did.
-    /// Otherwise nothing changes: where more rows press than bodies can move, what is nearly a solution may hold huge
-    /// impulses that cancel, and do so no longer in the next substep.
+    /// The contacts of each of some islands, by colour and lane.
+    fn members(&self, is_wanted: &[bool]) -> Vec<(usize, Vec<Spot>)> {
+        if !is_wanted.contains(&true) {
+            return Vec::new();
+        }
+        let mut members = vec![Vec::new(); is_wanted.len()];
+        for color in self.order() {
+            for lane in 0..self.colors[color].contacts.len() {
+                let bundle = &self.colors[color].bundles[lane / LANES];
+                if let Some(island) = self.island_of(bundle, lane % LANES).filter(|&it| is_wanted[it]) {
+                    members[island].push((color, lane));
+                }
+            }
+        }
+        members.into_iter().enumerate().filter(|(island, _)| is_wanted[*island]).collect()
+    }
+
+    /// Solves the contacts of an island directly, if that leads to an exact solution. No other is of any use: where more rows
+    /// press than bodies can move, what is nearly a solution may hold huge impulses that cancel, and do so no longer in the next
+    /// substep.
     fn solve_at_once(
-        &mut self,
-        members: &[(usize, usize)],
-        velocities: &mut [Row],
+        &self,
+        members: &[Spot],
+        velocities: &[Row],
         effort: Effort,
         mobility: impl Fn(u32) -> Option<Mobility>,
-    ) -> bool {
+    ) -> Option<direct::Island> {
         let mut small = direct::Island::default();
         for &(color, lane) in members {
             let bundle = &self.colors[color].bundles[lane / LANES];
             small.add(bundle, lane % LANES, velocities, &mobility);
         }
-        if !small.solve(f64::from(effort.exactness)) {
-            return false;
-        }
-        small.write(velocities);
+        small.solve(f64::from(effort.exactness)).then_some(small)
+    }
+
+    /// Gives the contacts of an island the impulses found.
+    fn take_over(&mut self, members: &[Spot], solved: &direct::Island) {
         for (number, &(color, lane)) in members.iter().enumerate() {
             let bundle = &mut self.colors[color].bundles[lane / LANES];
-            for (line, impulse) in field::IMPULSES.into_iter().zip(small.impulses(number)) {
+            for (line, impulse) in field::IMPULSES.into_iter().zip(solved.impulses(number)) {
                 bundle.lines[line].0[lane % LANES] = impulse;
             }
             bundle.lines[field::RESIDUAL].0[lane % LANES] = 0.0;
         }
-        true
     }
 }

@@ -4,7 +4,7 @@
 
 use super::{Color, Graph};
 use crate::solver::bundle::Bundle;
-use crate::solver::lanes::{LANES, Row};
+use crate::solver::lanes::Row;
 
 /// Which contacts hang together.
 #[derive(Default)]
@@ -15,6 +15,8 @@ pub(super) struct Islands {
     /// Contacts and bodies in each island.
     pub sizes: Vec<u32>,
     pub bodies: Vec<usize>,
+    /// Each island with the rows of what its contacts hold it against and nothing moves: the world, and what is driven.
+    pub shores: Vec<(usize, u32)>,
     /// For how many more substeps each island is not worth a direct solve: the last one led nowhere.
     pub pauses: Vec<u32>,
 }
@@ -73,13 +75,12 @@ impl Graph {
     /// How fast the bodies of each island move against each other, m/s.
     pub(super) fn spreads(&self, velocities: &[Row]) -> Vec<f32> {
         let mut spreads = vec![Spread::NONE; self.islands.sizes.len()];
-        for bundle in self.colors.iter().flat_map(|color| &color.bundles) {
-            for lane in 0..LANES {
-                if let Some(island) = self.island_of(bundle, lane) {
-                    spreads[island].include(&velocities[bundle.a[lane] as usize]);
-                    spreads[island].include(&velocities[bundle.b[lane] as usize]);
-                }
-            }
+        let rows = self.islands.of_row.iter().zip(velocities);
+        for (&island, velocity) in rows.filter(|(island, _)| **island != NONE) {
+            spreads[island as usize].include(velocity);
+        }
+        for &(island, row) in &self.islands.shores {
+            spreads[island].include(&velocities[row as usize]);
         }
         spreads.iter().map(Spread::width).collect()
     }
@@ -127,7 +128,17 @@ impl Graph {
         }
         let mut bodies = vec![0; sizes.len()];
         of_row.iter().filter(|&&island| island != NONE).for_each(|&island| bodies[island as usize] += 1);
+        let mut shores = Vec::new();
+        for (a, b) in lanes().filter(|&(a, b)| of_row[a as usize] != of_row[b as usize]) {
+            let shore =
+                if of_row[a as usize] == NONE { (of_row[b as usize], a) } else { (of_row[a as usize], b) };
+            let shore = (shore.0 as usize, shore.1);
+            // What stands on the ground often has its contacts in a row.
+            if shores.last() != Some(&shore) {
+                shores.push(shore);
+            }
+        }
         let pauses = vec![0; sizes.len()];
-        self.islands = Islands { is_stale: false, of_row, sizes, bodies, pauses };
+        self.islands = Islands { is_stale: false, of_row, sizes, bodies, shores, pauses };
     }
 }

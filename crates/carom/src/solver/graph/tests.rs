@@ -140,3 +140,44 @@ fn impulses_act_again_only_where_they_do_no_work() {
     let impulse = |id: ContactId| graph.get(id, field::of_point(0, field::IMPULSE));
     assert_eq!([impulse(ids[0]), impulse(ids[1])], [GAIN as f32, 0.0]);
 }
+
+#[test]
+fn any_number_of_threads_gives_the_same_bits() {
+    use crate::solver::tests::Problem;
+    let mut random = Random(17);
+    let problem = Problem::random(&mut random, 1500);
+    let effort =
+        Effort { agreement: 1e-4, exactness: 1e-6, quiet: 100.0, sweeps: 2, in_motion: 12, budget: 100 };
+    let outcome = |threads: usize| {
+        let pool = Arc::new(Pool::new(threads));
+        let mut graph = Graph::new(Machine::default(), Arc::clone(&pool));
+        let is_movable = |row: u32| problem.movers[row as usize].is_movable();
+        for touch in &problem.touches {
+            let rows = touch.bodies.map(|body| body as u32);
+            graph.insert(rows, rows.map(is_movable), &problem.lane(touch));
+        }
+        graph.validate(is_movable);
+        let (mut velocities, drifts) = (problem.rows(), vec![Row([1e-4; 8]); problem.movers.len()]);
+        let mut displacements = velocities.clone();
+        for _ in 0..2 {
+            graph.measure(&drifts);
+            graph.begin(&mut velocities, [1e-4, 0.0], 1.0 / 240.0);
+            graph.solve(&mut velocities, effort, |row| problem.mobility(row));
+        }
+        let mut wrenches = graph.wrenches(&velocities);
+        wrenches.extend(graph.push_out(&mut displacements, 0.5, 0.0));
+        assert_eq!(pool.has_workers(), threads > 1);
+        let pushes = wrenches.iter().map(|it| (it.contact, it.impulse(), it.moment())).collect::<Vec<_>>();
+        let residuals = graph
+            .colors
+            .iter()
+            .flat_map(|color| &color.bundles)
+            .map(|bundle| bundle.lines[field::RESIDUAL].0);
+        (velocities, displacements, pushes, residuals.collect::<Vec<_>>())
+    };
+    let alone = outcome(1);
+    assert_ne!(alone.0, problem.rows());
+    for threads in [2, 3, 8] {
+        assert!(outcome(threads) == alone, "{threads} threads");
+    }
+}

@@ -4,6 +4,7 @@
 //! momentum out of nothing, whoever gives an impulse to two bodies does it at one place in the world: seen from the *mean
 //! centre* between both, as the arms are.
 
+use super::passes::GRAIN;
 use super::{ContactId, Graph};
 use crate::math::DVec3;
 use crate::solver::bundle::{Bundle, POINTS, field};
@@ -118,22 +119,39 @@ impl Kernel for SumUp<'_> {
 impl Graph {
     /// What all contacts exert that exert anything on a body of `rows` that can be moved.
     pub fn wrenches(&self, rows: &[Row]) -> Vec<Wrench> {
-        let mut wrenches = Vec::new();
+        let count = self.colors.iter().map(|color| color.contacts.len()).sum();
+        let mut wrenches = Vec::with_capacity(count);
         for color in self.order().map(|color| &self.colors[color]) {
-            let sums = self.machine.run(SumUp { bundles: &color.bundles });
-            let lanes = color.contacts.chunks(LANES);
-            for ((bundle, sums), contacts) in color.bundles.iter().zip(sums).zip(lanes) {
-                for (lane, &contact) in contacts.iter().enumerate() {
-                    let sides = [bundle.a[lane] as usize, bundle.b[lane] as usize];
-                    let sum = sums.map(|line| line.0[lane]);
-                    let exerts = sum.iter().any(|&value| value != 0.0);
-                    if exerts && sides.iter().any(|&row| rows[row].0[WRITABLE] != 0.0) {
-                        wrenches.push(wrench(bundle, lane, (ContactId(contact), sides), &sum.map(f64::from)));
-                    }
+            let stretches = self.pool.ranges(color.bundles.len(), GRAIN, |range| {
+                let contacts = color.contacts[range.start * LANES..].chunks(LANES);
+                let bundles = &color.bundles[range];
+                let sums = self.machine.run(SumUp { bundles });
+                let mut found = Vec::with_capacity(bundles.len() * LANES);
+                for ((bundle, sums), contacts) in bundles.iter().zip(sums).zip(contacts) {
+                    add_wrenches((bundle, &sums), contacts, rows, &mut found);
                 }
-            }
+                found
+            });
+            stretches.into_iter().for_each(|mut found| wrenches.append(&mut found));
         }
         wrenches
+    }
+}
+
+/// Adds what a bundle's contacts exert on bodies that can be moved.
+fn add_wrenches(
+    (bundle, sums): (&Bundle, &[Line; SUMS]),
+    contacts: &[u32],
+    rows: &[Row],
+    found: &mut Vec<Wrench>,
+) {
+    for (lane, &contact) in contacts.iter().enumerate() {
+        let sides = [bundle.a[lane] as usize, bundle.b[lane] as usize];
+        let sum = sums.map(|line| line.0[lane]);
+        let exerts = sum.iter().any(|&value| value != 0.0);
+        if exerts && sides.iter().any(|&row| rows[row].0[WRITABLE] != 0.0) {
+            found.push(wrench(bundle, lane, (ContactId(contact), sides), &sum.map(f64::from)));
+        }
     }
 }
 

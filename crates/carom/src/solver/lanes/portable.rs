@@ -1,6 +1,8 @@
 //! Lanes in plain Rust.
 
-use super::{Lanes, Line, Row, WRITABLE};
+#![allow(unsafe_code, reason = "rows that several threads change at once, each its own")]
+
+use super::{Lanes, Line, Row, SharedRows, Source, WRITABLE};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// Lanes in plain Rust, for any machine; the reference for all others.
@@ -73,10 +75,11 @@ impl<const N: usize> Lanes for Portable<N> {
     }
 
     #[inline(always)]
-    fn gather(rows: &[Row], indices: &[u32]) -> [Self; 8] {
+    fn gather(rows: impl Source, indices: &[u32]) -> [Self; 8] {
         let mut columns = [Self([0.0; N]); 8];
-        for lane in 0..N {
-            let row = &rows[indices[lane] as usize];
+        for (lane, &index) in indices[..N].iter().enumerate() {
+            // SAFETY: a source's rows can be read; no other thread writes to those of this bundle.
+            let row = unsafe { *rows.at(index) };
             for (column, value) in columns.iter_mut().zip(row.0) {
                 column.0[lane] = value;
             }
@@ -85,10 +88,11 @@ impl<const N: usize> Lanes for Portable<N> {
     }
 
     #[inline(always)]
-    fn scatter(columns: [Self; 8], rows: &mut [Row], indices: &[u32]) {
-        for lane in 0..N {
+    fn scatter(columns: [Self; 8], rows: SharedRows<'_>, indices: &[u32]) {
+        for (lane, &index) in indices[..N].iter().enumerate() {
             if columns[WRITABLE].0[lane] != 0.0 {
-                rows[indices[lane] as usize] = Row(columns.map(|column| column.0[lane]));
+                // SAFETY: what is writable is this bundle's alone.
+                unsafe { *rows.at_mut(index) = Row(columns.map(|column| column.0[lane])) };
             }
         }
     }

@@ -11,7 +11,7 @@
 
 mod rows;
 
-use super::{InstructionSet, Kernel, Lanes, Line, Portable, Row, WRITABLE};
+use super::{InstructionSet, Kernel, Lanes, Line, Portable, SharedRows, Source, WRITABLE};
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -143,14 +143,14 @@ macro_rules! lanes {
             }
 
             #[inline(always)]
-            fn gather(rows: &[Row], indices: &[u32]) -> [Self; 8] {
+            fn gather(rows: impl Source, indices: &[u32]) -> [Self; 8] {
                 // SAFETY: see `neg`.
                 let [s, t, u, v, w, x, y, z] = unsafe { rows::$gather(rows, indices) };
                 [Self(s), Self(t), Self(u), Self(v), Self(w), Self(x), Self(y), Self(z)]
             }
 
             #[inline(always)]
-            fn scatter([s, t, u, v, w, x, y, z]: [Self; 8], rows: &mut [Row], indices: &[u32]) {
+            fn scatter([s, t, u, v, w, x, y, z]: [Self; 8], rows: SharedRows<'_>, indices: &[u32]) {
                 let columns = [s.0, t.0, u.0, v.0, w.0, x.0, y.0, z.0];
                 // SAFETY: see `neg`.
                 unsafe { rows::$scatter(columns, rows, (indices, $nonzero(columns[WRITABLE]))) }

@@ -42,12 +42,12 @@ fn begin_and_sweep_keep_the_momentum_of_two_free_bodies() {
         let mut rows = start.clone();
         for bundle in &mut bundles {
             begin::<Wide>(bundle, &rows, [MARGIN as f32, 240.0]);
-            resume::<Wide>(bundle, &mut rows);
+            resume::<Wide>(bundle, SharedRows::new(&mut rows));
         }
         assert_kept(&problem, &start, &rows, 10.0);
         for _ in 0..3 {
             for bundle in &mut bundles {
-                sweep::<Wide>(bundle, &mut rows);
+                sweep::<Wide>(bundle, SharedRows::new(&mut rows));
                 assert_kept(&problem, &start, &rows, 10.0);
             }
         }

@@ -12,7 +12,7 @@ fn sweeps_from_zero_impulses_never_add_kinetic_energy() {
         let start = problem.energy(&rows);
         for number in 0..40 {
             for bundle in &mut bundles {
-                sweep::<Portable<4>>(bundle, &mut rows);
+                sweep::<Portable<4>>(bundle, SharedRows::new(&mut rows));
                 let energy = problem.energy(&rows);
                 assert!(energy <= start * (1.0 + 1e-5), "sweep {number}: {start} J have become {energy} J");
             }

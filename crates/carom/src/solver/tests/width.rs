@@ -38,11 +38,11 @@ fn run<L: Lanes>(bundle: &Bundle, rows: &[Row], drifts: &[Row]) -> Vec<u32> {
     let mut displacements = rows.clone();
     measure::<L>(&mut bundle, drifts);
     begin::<L>(&mut bundle, &rows, [MARGIN as f32, 240.0]);
-    resume::<L>(&bundle, &mut rows);
+    resume::<L>(&bundle, SharedRows::new(&mut rows));
     for _ in 0..3 {
-        sweep::<L>(&mut bundle, &mut rows);
+        sweep::<L>(&mut bundle, SharedRows::new(&mut rows));
     }
-    sweep_normals::<L>(&mut bundle, &mut displacements);
+    sweep_normals::<L>(&mut bundle, SharedRows::new(&mut displacements));
     let work = work::<L>(&bundle, &displacements, &rows);
     let lines = bundle.lines.iter().chain([&work]).flat_map(|line| line.0);
     let rows = rows.iter().chain(&displacements).flat_map(|row| row.0);
@@ -108,18 +108,18 @@ fn empty_lanes_change_nothing() {
             alone.write(random.below(LANES), indices, &values);
             measure::<Portable<4>>(&mut alone, &drifts);
             begin::<Portable<4>>(&mut alone, &apart, [MARGIN as f32, 240.0]);
-            resume::<Portable<4>>(&alone, &mut apart);
+            resume::<Portable<4>>(&alone, SharedRows::new(&mut apart));
             for _ in 0..3 {
-                sweep::<Portable<4>>(&mut alone, &mut apart);
+                sweep::<Portable<4>>(&mut alone, SharedRows::new(&mut apart));
             }
         }
         let mut together = rows.clone();
         let mut whole = bundle.clone();
         measure::<Portable<4>>(&mut whole, &drifts);
         begin::<Portable<4>>(&mut whole, &together, [MARGIN as f32, 240.0]);
-        resume::<Portable<4>>(&whole, &mut together);
+        resume::<Portable<4>>(&whole, SharedRows::new(&mut together));
         for _ in 0..3 {
-            sweep::<Portable<4>>(&mut whole, &mut together);
+            sweep::<Portable<4>>(&mut whole, SharedRows::new(&mut together));
         }
         assert_eq!(apart, together);
         assert_eq!(together[0], rows[0], "the world moves");

@@ -11,7 +11,7 @@ use crate::solver::direct::Mobility;
 use crate::solver::graph::Effort;
 use crate::solver::lanes::Row;
 use crate::solver::rows::Rows;
-use crate::step::motion::{advance, free_influence, set_pace};
+use crate::step::motion::{advance_all, free_influence, set_pace};
 use crate::step::pairs::Pairs;
 
 /// Speeds in units of what gravity does in a substep. Velocities agree when a sweep changes them by no more than the first; where
@@ -39,9 +39,7 @@ impl Rest {
     /// paths are new.
     pub fn hold(&mut self, bodies: &mut Bodies, pairs: &mut Pairs, law: RestLaw, span: Span) -> Vec<usize> {
         let held = self.rows.held().to_vec();
-        for &row in &held {
-            advance(bodies, row, span.from);
-        }
+        advance_all(bodies, &held, span.from, self.graph.pool());
         settle(bodies);
         let mut freed = Vec::new();
         self.renew_moved(bodies, pairs, &held, (law, span));

@@ -1,14 +1,17 @@
 //! Rows to columns and back: four rows with SSE2, eight with AVX.
+//!
+//! The rows of a bundle can be read, no other thread writes to them, and those that are writable no other thread reads: this is what
+//! [`Source`] and [`SharedRows`] stand for.
 
-use super::super::Row;
+use super::super::{Row, SharedRows, Source};
 use std::arch::x86_64::*;
 
 /// Columns of four rows.
 #[inline(always)]
-pub(super) unsafe fn gather_four(rows: &[Row], indices: &[u32]) -> [__m128; 8] {
+pub(super) unsafe fn gather_four(rows: impl Source, indices: &[u32]) -> [__m128; 8] {
     let indices = &indices[..4];
-    let [a, b] = [&rows[indices[0] as usize], &rows[indices[1] as usize]];
-    let [c, d] = [&rows[indices[2] as usize], &rows[indices[3] as usize]];
+    let [a, b] = [rows.at(indices[0]), rows.at(indices[1])];
+    let [c, d] = [rows.at(indices[2]), rows.at(indices[3])];
     // SAFETY: every x86-64 has SSE2.
     unsafe {
         let [s, t, u, v] = transposed([half(a, 0), half(b, 0), half(c, 0), half(d, 0)]);
@@ -21,7 +24,7 @@ pub(super) unsafe fn gather_four(rows: &[Row], indices: &[u32]) -> [__m128; 8] {
 #[inline(always)]
 pub(super) unsafe fn scatter_four(
     [s, t, u, v, w, x, y, z]: [__m128; 8],
-    rows: &mut [Row],
+    rows: SharedRows<'_>,
     (indices, writable): (&[u32], u32),
 ) {
     let indices = &indices[..4];
@@ -30,7 +33,7 @@ pub(super) unsafe fn scatter_four(
         let (first, second) = (transposed([s, t, u, v]), transposed([w, x, y, z]));
         for lane in 0..4 {
             if writable >> lane & 1 == 1 {
-                write(&mut rows[indices[lane] as usize], first[lane], second[lane]);
+                write(rows.at_mut(indices[lane]), first[lane], second[lane]);
             }
         }
     }
@@ -38,13 +41,13 @@ pub(super) unsafe fn scatter_four(
 
 /// Columns of eight rows, where there is AVX.
 #[inline(always)]
-pub(super) unsafe fn gather_eight(rows: &[Row], indices: &[u32]) -> [__m256; 8] {
+pub(super) unsafe fn gather_eight(rows: impl Source, indices: &[u32]) -> [__m256; 8] {
     let indices = &indices[..8];
     // Two rows to a register, one in each half, so that nothing has to change halves.
-    let [a, e] = [&rows[indices[0] as usize], &rows[indices[4] as usize]];
-    let [b, f] = [&rows[indices[1] as usize], &rows[indices[5] as usize]];
-    let [c, g] = [&rows[indices[2] as usize], &rows[indices[6] as usize]];
-    let [d, h] = [&rows[indices[3] as usize], &rows[indices[7] as usize]];
+    let [a, e] = [rows.at(indices[0]), rows.at(indices[4])];
+    let [b, f] = [rows.at(indices[1]), rows.at(indices[5])];
+    let [c, g] = [rows.at(indices[2]), rows.at(indices[6])];
+    let [d, h] = [rows.at(indices[3]), rows.at(indices[7])];
     // SAFETY: the caller has AVX.
     unsafe {
         let first = [halves(a, e, 0), halves(b, f, 0), halves(c, g, 0), halves(d, h, 0)];
@@ -58,7 +61,7 @@ pub(super) unsafe fn gather_eight(rows: &[Row], indices: &[u32]) -> [__m256; 8] 
 #[inline(always)]
 pub(super) unsafe fn scatter_eight(
     [s, t, u, v, w, x, y, z]: [__m256; 8],
-    rows: &mut [Row],
+    rows: SharedRows<'_>,
     (indices, writable): (&[u32], u32),
 ) {
     let indices = &indices[..8];
@@ -69,42 +72,42 @@ pub(super) unsafe fn scatter_eight(
             if writable >> lane & 1 == 1 {
                 let (first, second) =
                     (_mm256_castps256_ps128(first[lane]), _mm256_castps256_ps128(second[lane]));
-                write(&mut rows[indices[lane] as usize], first, second);
+                write(rows.at_mut(indices[lane]), first, second);
             }
         }
         for lane in 0..4 {
             if writable >> (lane + 4) & 1 == 1 {
                 let (first, second) =
                     (_mm256_extractf128_ps::<1>(first[lane]), _mm256_extractf128_ps::<1>(second[lane]));
-                write(&mut rows[indices[lane + 4] as usize], first, second);
+                write(rows.at_mut(indices[lane + 4]), first, second);
             }
         }
     }
 }
 
-/// Numbers `at` to `at + 3` of a row.
+/// Numbers `at` to `at + 3` of a row that can be read.
 #[inline(always)]
-unsafe fn half(row: &Row, at: usize) -> __m128 {
-    let numbers = &row.0[at..at + 4];
-    // SAFETY: every x86-64 has SSE2; four numbers.
-    unsafe { _mm_loadu_ps(numbers.as_ptr()) }
+unsafe fn half(row: *const Row, at: usize) -> __m128 {
+    debug_assert!(at <= 4);
+    // SAFETY: every x86-64 has SSE2; four numbers of the eight that a row is.
+    unsafe { _mm_loadu_ps(row.cast::<f32>().add(at)) }
 }
 
 /// Such numbers of a row in the lower half, and of another in the upper one, where there is AVX.
 #[inline(always)]
-unsafe fn halves(low: &Row, high: &Row, at: usize) -> __m256 {
-    // SAFETY: the caller has AVX.
+unsafe fn halves(low: *const Row, high: *const Row, at: usize) -> __m256 {
+    // SAFETY: the caller has AVX, and rows that can be read.
     unsafe { _mm256_insertf128_ps::<1>(_mm256_castps128_ps256(half(low, at)), half(high, at)) }
 }
 
-/// Writes both halves of a row.
+/// Writes both halves of a row that nobody else has.
 #[inline(always)]
-unsafe fn write(row: &mut Row, first: __m128, second: __m128) {
-    let (low, high) = row.0.split_at_mut(4);
-    // SAFETY: every x86-64 has SSE2; a row has two times four numbers.
+unsafe fn write(row: *mut Row, first: __m128, second: __m128) {
+    let row = row.cast::<f32>();
+    // SAFETY: every x86-64 has SSE2; a row is two times four numbers.
     unsafe {
-        _mm_storeu_ps(low.as_mut_ptr(), first);
-        _mm_storeu_ps(high.as_mut_ptr(), second);
+        _mm_storeu_ps(row, first);
+        _mm_storeu_ps(row.add(4), second);
     }
 }
 

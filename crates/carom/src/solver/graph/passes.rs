@@ -1,0 +1,104 @@
+//! Passes over all contacts: colour after colour, the bundles of a colour shared out among the threads.
+//!
+//! The colours' order is the same for everyone, and bundles of one colour have no movable body in common. So a pass comes to the same
+//! bits on any number of threads.
+
+use super::{Color, FIXED, Graph, KINDS, MOVING};
+use crate::solver::bundle::Bundle;
+use crate::solver::kernels::{Begin, Measure, Sweep, SweepNormals};
+use crate::solver::lanes::{Machine, Row};
+use crate::solver::rows::SharedRows;
+
+/// Bundles that are worth a thread's while: a sweep over so many takes some microseconds. A colour with less than twice as many
+/// stays with the caller.
+pub(super) const GRAIN: usize = 16;
+
+/// The same where all that is done with a bundle is to look at it.
+pub(super) const GLANCES: usize = 256;
+
+/// A bundle: its colour, and its index there.
+pub(super) type Spot = (usize, usize);
+
+/// Which bundles of a colour, and how many.
+pub(super) struct Chosen {
+    pub is_chosen: Vec<bool>,
+    pub count: usize,
+}
+
+impl Graph {
+    /// Colours in the order in which they are swept.
+    pub(super) fn order(&self) -> impl Iterator<Item = usize> + use<> {
+        let count = self.colors.len();
+        (MOVING..count).step_by(KINDS).chain((FIXED..count).step_by(KINDS))
+    }
+
+    /// One colour after the other, each in stretches.
+    fn each_color(&mut self, act: impl Fn(Machine, &mut [Bundle]) + Sync) {
+        for color in self.order() {
+            let machine = self.machine;
+            self.pool.chunks(&mut self.colors[color].bundles, GRAIN, |_, bundles| act(machine, bundles));
+        }
+    }
+
+    /// What comes of stretches of a colour's bundles, in their order.
+    pub(super) fn each_stretch<R: Send>(
+        &self,
+        color: usize,
+        act: impl Fn(Machine, &[Bundle]) -> R + Sync,
+    ) -> Vec<R> {
+        let bundles = &self.colors[color].bundles;
+        self.pool.ranges(bundles.len(), GRAIN, |range| act(self.machine, &bundles[range]))
+    }
+
+    pub(super) fn each_bundle(&mut self, mut act: impl FnMut(&mut Bundle)) {
+        for color in self.order() {
+            self.colors[color].bundles.iter_mut().for_each(&mut act);
+        }
+    }
+
+    /// Finds all separations from the bodies' drifts.
+    pub fn measure(&mut self, drifts: &[Row]) {
+        self.each_color(|machine, bundles| machine.run(Measure { bundles, drifts }));
+    }
+
+    /// Starts a substep from the velocities `before`, and lets the impulses of the last one act on the others; margin (m), rate (1/s).
+    pub(super) fn resume(&mut self, (before, velocities): (&[Row], &mut [Row]), limits: [f32; 2]) {
+        let velocities = SharedRows::new(velocities);
+        self.each_color(|machine, bundles| machine.run(Begin { bundles, before, velocities, limits }));
+    }
+
+    /// Sweeps once over the normals alone.
+    pub(super) fn sweep_normals(&mut self, displacements: &mut [Row]) {
+        let displacements = SharedRows::new(displacements);
+        self.each_color(|machine, bundles| machine.run(SweepNormals { bundles, displacements }));
+    }
+
+    /// Sweeps once over all bundles, or those `chosen` of each colour; where this has changed a velocity by more than `agreement`, m/s.
+    pub(super) fn sweep(
+        &mut self,
+        velocities: &mut [Row],
+        chosen: Option<&[Chosen]>,
+        agreement: f32,
+    ) -> Vec<Spot> {
+        let velocities = SharedRows::new(velocities);
+        let machine = self.machine;
+        let mut open = Vec::new();
+        for color in self.order() {
+            let Color { bundles, .. } = &mut self.colors[color];
+            let chosen = chosen.map(|colors| &colors[color]);
+            let count = chosen.map_or(bundles.len(), |chosen| chosen.count);
+            if count == 0 {
+                continue;
+            }
+            let grain = GRAIN * bundles.len() / count;
+            let stretches = self.pool.chunks(bundles, grain, |first, bundles| {
+                let chosen = chosen.map(|it| &it.is_chosen[first..first + bundles.len()]);
+                (first, machine.run(Sweep { bundles, chosen, velocities, agreement }))
+            });
+            for (first, found) in stretches {
+                open.extend(found.into_iter().map(|index| (color, first + index)));
+            }
+        }
+        open
+    }
+}
