@@ -7,25 +7,40 @@
 use super::remember::remembered;
 use super::{Rest, Span, horizon};
 use crate::bodies::{Bodies, ColliderRow};
+use crate::collide::Manifold;
 use crate::impacts::time_of_impact::{Approach, RestLaw};
 use crate::math::{DMat3, DVec3};
-use crate::solver::prepare::{Side, Terms, lane};
+use crate::solver::bundle::Lane;
+use crate::solver::prepare::{Remembered, Side, Terms, lane};
 use crate::step::pairs::{Pairs, Support};
 
 /// Motion of a body, as a share of its smallest collider's reach or in radians, after which its contacts are renewed.
 const DRIFT: f64 = 5e-3;
 
+/// So many pairs looked at are worth sharing out.
+const LOOKS: usize = 16;
+
+/// What a pair's contacts are to be: each manifold, and its numbers.
+type View = Vec<(Manifold, Lane)>;
+
 impl Rest {
     /// Looks at a pair closely: new geometry, old impulses. A pair that is out of reach rests no more.
-    pub(super) fn renew(
-        &mut self,
+    pub(super) fn renew(&mut self, bodies: &Bodies, pairs: &mut Pairs, index: usize, at: (RestLaw, Span)) {
+        if let Some(view) = self.look(bodies, pairs, index, at) {
+            self.adopt_view(bodies, pairs, index, &view);
+        }
+    }
+
+    /// The contacts of a pair as they are now, with what the old ones exert.
+    fn look(
+        &self,
         bodies: &Bodies,
-        pairs: &mut Pairs,
+        pairs: &Pairs,
         index: usize,
         (law, span): (RestLaw, Span),
-    ) {
+    ) -> Option<View> {
         let pair = &pairs[index];
-        let Some(approach) = Approach::of(bodies, pair.colliders, law) else { return };
+        let approach = Approach::of(bodies, pair.colliders, law)?;
         let [a, b] = approach.colliders();
         let margin = law.contact_margin();
         let grain = a.reach.min(b.reach);
@@ -36,44 +51,47 @@ impl Rest {
         let ahead = ((way(0) + way(1)) * (law.step - span.from)).min(0.2 * grain);
         let mut manifolds = Vec::new();
         approach.manifolds(pairs, span.from, margin + 0.01 * grain + ahead, &mut manifolds);
-        let pair = &mut pairs[index];
-
-        let side = |collider: &ColliderRow, outward: DVec3, point: DVec3| {
-            let constants = &bodies.constants[collider.row];
-            let center = bodies.center_pose(collider);
-            let pose = center.then_local(&collider.local);
-            let local = (pose.inverse_transform_point(point), pose.rotation.conjugate() * outward);
-            let movable = constants.is_movable();
-            Side {
-                center: center.position,
-                inverse_mass: constants.inverse_mass,
-                inverse_inertia: if movable {
-                    constants.inverse_inertia(self.rows.anchors[collider.row].rotation)
-                } else {
-                    DMat3::ZERO
-                },
-                drift: self.rows.drift(collider.row),
-                roundness: collider.shape.roundness(local.0, local.1),
-            }
-        };
-        let terms = Terms { surface: pair.surface, margin, horizon: horizon(pair, grain, law) };
-        let old = std::mem::take(&mut pair.supports);
         manifolds.retain(|manifold| !manifold.points().is_empty());
+
+        let terms = Terms { surface: pair.surface, margin, horizon: horizon(pair, grain, law) };
         let centers = [a, b].map(|collider| bodies.center_pose(collider).position);
-        let past: Vec<_> = old.iter().map(|support| self.past(support, centers)).collect();
-        let lanes: Vec<_> = manifolds
-            .iter()
-            .zip(remembered(&past, &manifolds, margin))
-            .map(|(manifold, remembered)| {
-                let normal = manifold.normal;
-                let at = manifold.points()[0].point;
-                let sides = [side(a, normal, at), side(b, -normal, at)];
-                (manifold, lane(normal, manifold.points(), &sides, &terms, &remembered))
-            })
-            .collect();
+        let past: Vec<_> = pair.supports.iter().map(|support| self.past(support, centers)).collect();
+        let remembered = remembered(&past, &manifolds, margin);
+        let lane = |(manifold, remembered): (Manifold, Remembered)| {
+            let (normal, at) = (manifold.normal, manifold.points()[0].point);
+            let sides = [self.side(bodies, a, (normal, at)), self.side(bodies, b, (-normal, at))];
+            let lane = lane(normal, manifold.points(), &sides, &terms, &remembered);
+            (manifold, lane)
+        };
+        Some(manifolds.into_iter().zip(remembered).map(lane).collect())
+    }
+
+    /// A body as a contact sees it that touches one of its colliders at a point, where this normal points outward.
+    fn side(&self, bodies: &Bodies, collider: &ColliderRow, (outward, point): (DVec3, DVec3)) -> Side {
+        let constants = &bodies.constants[collider.row];
+        let center = bodies.center_pose(collider);
+        let pose = center.then_local(&collider.local);
+        let local = (pose.inverse_transform_point(point), pose.rotation.conjugate() * outward);
+        Side {
+            center: center.position,
+            inverse_mass: constants.inverse_mass,
+            inverse_inertia: if constants.is_movable() {
+                constants.inverse_inertia(self.rows.anchors[collider.row].rotation)
+            } else {
+                DMat3::ZERO
+            },
+            drift: self.rows.drift(collider.row),
+            roundness: collider.shape.roundness(local.0, local.1),
+        }
+    }
+
+    /// Puts the contacts of a pair in the place of its old ones.
+    fn adopt_view(&mut self, bodies: &Bodies, pairs: &mut Pairs, index: usize, view: &View) {
+        let pair = &mut pairs[index];
+        let old = std::mem::take(&mut pair.supports);
         let rows = pair.rows.map(|row| row as u32);
         let movable = pair.rows.map(|row| bodies.constants[row].is_movable());
-        for (number, (manifold, lane)) in lanes.iter().enumerate() {
+        for (number, (manifold, lane)) in view.iter().enumerate() {
             let contact = match old.get(number) {
                 Some(support) => {
                     self.graph.write(support.contact, lane);
@@ -88,7 +106,7 @@ impl Rest {
             self.bounces[contact.index()] = pair.surface.restitution > 0.0;
             pair.supports.push(Support::new(contact, manifold));
         }
-        for support in old.iter().skip(lanes.len()) {
+        for support in old.iter().skip(view.len()) {
             self.release(support);
         }
         pair.rests = !pair.supports.is_empty();
@@ -109,11 +127,14 @@ impl Rest {
                 self.rows.anchor(bodies, row);
             }
         }
-        for index in 0..self.resting.len() {
-            let number = self.resting[index];
-            let pair = &pairs[number];
-            if pair.rests && pair.rows.into_iter().any(|row| has_moved[row]) {
-                self.renew(bodies, pairs, number, (law, span));
+        let stale =
+            |&index: &usize| pairs[index].rests && pairs[index].rows.into_iter().any(|row| has_moved[row]);
+        let stale: Vec<usize> = self.resting.iter().copied().filter(stale).collect();
+        let views =
+            self.graph.pool().map(&stale, LOOKS, |&index| self.look(bodies, pairs, index, (law, span)));
+        for (index, view) in stale.into_iter().zip(views) {
+            if let Some(view) = view {
+                self.adopt_view(bodies, pairs, index, &view);
             }
         }
         self.resting.retain(|&index| pairs[index].rests);
