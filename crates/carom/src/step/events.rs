@@ -14,9 +14,8 @@
 use crate::bodies::{Bodies, WORLD_ROW};
 use crate::impacts::instant::Instant;
 use crate::impacts::time_of_impact::{Approach, RestLaw, Touch};
-use crate::math::DVec3;
 use crate::report::Impact;
-use crate::step::broad_phase::{BroadPhase, order, swept_bounds};
+use crate::step::broad_phase::{BroadPhase, order};
 use crate::step::motion::{advance, rouse, set_pace};
 use crate::step::pairs::Pairs;
 use crate::step::rest::{Rest, Span};
@@ -55,12 +54,26 @@ impl PartialOrd for Event {
     }
 }
 
-/// Where a body was to be at the end of the step when its neighbours were last looked for.
-#[derive(Clone, Copy, Debug)]
-struct Claim {
-    end: DVec3,
-    /// rad/s
-    spin: f64,
+/// What the touches of a step are kept in, from step to step.
+#[derive(Default)]
+pub(crate) struct Agenda {
+    queue: BinaryHeap<Reverse<Event>>,
+    touches_of_row: Vec<u32>,
+    /// Whether contacts have given each row a new path at the start of the substep.
+    is_renewed: Vec<bool>,
+    /// Rows that a touch has given new paths.
+    rerouted: Vec<usize>,
+}
+
+impl Agenda {
+    fn clear(&mut self, rows: usize) {
+        self.queue.clear();
+        self.rerouted.clear();
+        self.touches_of_row.clear();
+        self.touches_of_row.resize(rows, 0);
+        self.is_renewed.clear();
+        self.is_renewed.resize(rows, false);
+    }
 }
 
 /// The touches of one step.
@@ -70,9 +83,7 @@ pub(crate) struct Events<'a> {
     pairs: &'a mut Pairs,
     rest: &'a mut Rest,
     law: RestLaw,
-    queue: BinaryHeap<Reverse<Event>>,
-    claims: Vec<Claim>,
-    touches_of_row: Vec<u32>,
+    agenda: &'a mut Agenda,
     impacts: Vec<Impact>,
     /// Rounds so far, of all instants.
     rounds: u32,
@@ -84,48 +95,51 @@ impl<'a> Events<'a> {
         bodies: &'a mut Bodies,
         broad_phase: &'a mut BroadPhase,
         (pairs, rest): (&'a mut Pairs, &'a mut Rest),
+        agenda: &'a mut Agenda,
         law: RestLaw,
     ) -> Self {
-        let rows = bodies.states.len();
-        let claims = (0..rows).map(|row| claim(bodies, row, law.step)).collect();
-        Self {
-            bodies,
-            broad_phase,
-            pairs,
-            rest,
-            law,
-            queue: BinaryHeap::new(),
-            claims,
-            touches_of_row: vec![0; rows],
-            impacts: Vec::new(),
-            rounds: 0,
-        }
+        agenda.clear(bodies.states.len());
+        pairs.begin_watch(bodies, (law.step, law.contact_margin()));
+        Self { bodies, broad_phase, pairs, rest, law, agenda, impacts: Vec::new(), rounds: 0 }
     }
 
     /// Lets a substep pass: contacts hold what rests, then touch comes after touch.
     pub fn substep(&mut self, span: Span) {
+        self.pairs.watch_again(self.bodies, self.agenda.rerouted.drain(..), self.law.step);
         self.rest.adopt(self.bodies, self.pairs, self.law, span);
-        for row in self.rest.hold(self.bodies, self.pairs, self.law, span) {
+        let renewed = self.rest.hold(self.bodies, self.pairs, self.law, span);
+        for &row in &renewed {
             self.claim_anew(row, span.from);
-            for number in 0..self.pairs.count_of_row(row) {
-                let pair = self.pairs.of_row(row, number);
-                self.pairs[pair].now.asked_until = span.from;
-            }
+            self.agenda.is_renewed[row] = true;
         }
-        for index in 0..self.pairs.len() {
-            let pair = &self.pairs[index];
-            let is_due = pair.now.asked_until < span.until && !pair.now.is_sensed;
-            if is_due && !(pair.rests && self.rest.is_closed(pair)) {
-                self.ask(index, span);
-            }
-        }
-        while let Some(Reverse(event)) = self.queue.peek().copied() {
+        self.pairs.watch_again(self.bodies, renewed.iter().copied(), self.law.step);
+        self.ask_due(span);
+        renewed.into_iter().for_each(|row| self.agenda.is_renewed[row] = false);
+        while let Some(Reverse(event)) = self.agenda.queue.peek().copied() {
             if event.time > span.until {
                 break;
             }
-            self.queue.pop();
+            self.agenda.queue.pop();
             if self.pairs[event.pair].now.stamp == event.stamp {
                 self.touch(event.pair, Span { from: event.time, ..span });
+            }
+        }
+    }
+
+    /// Asks the pairs that nobody has asked for this long, or whose bodies have got new paths since.
+    fn ask_due(&mut self, span: Span) {
+        for number in 0..self.pairs.count_of_watched() {
+            let index = self.pairs.watched(number);
+            let pair = &self.pairs[index];
+            let is_renewed = pair.rows.into_iter().any(|row| self.agenda.is_renewed[row]);
+            let is_due = (is_renewed || pair.now.asked_until < span.until) && !pair.now.is_sensed;
+            if !is_due {
+                continue;
+            }
+            if pair.rests && self.rest.is_closed(pair) {
+                self.pairs[index].now.asked_until = span.from;
+            } else {
+                self.ask(index, span);
             }
         }
     }
@@ -171,7 +185,7 @@ impl<'a> Events<'a> {
         if let Some(time) = instant {
             let pair = &self.pairs[index];
             let key = order(self.bodies, pair.colliders);
-            self.queue.push(Reverse(Event { time, key, pair: index, stamp: pair.now.stamp }));
+            self.agenda.queue.push(Reverse(Event { time, key, pair: index, stamp: pair.now.stamp }));
         }
     }
 
@@ -185,7 +199,8 @@ impl<'a> Events<'a> {
         for row in rows {
             rouse(self.bodies, row, self.law, time);
             advance(self.bodies, row, time);
-            self.touches_of_row[row] += u32::from(row != WORLD_ROW);
+            self.agenda.rerouted.push(row);
+            self.agenda.touches_of_row[row] += u32::from(row != WORLD_ROW);
         }
         let rests = self.pairs[index].rests;
         let Some(approach) = Approach::of(self.bodies, colliders, self.law) else { return };
@@ -217,7 +232,9 @@ impl<'a> Events<'a> {
             outcome.impacts.into_iter().map(|impact| Impact { round: self.rounds + impact.round, ..impact }),
         );
         self.rounds += rounds;
-        for (pair, stays) in outcome.struck {
+        let mut struck = outcome.struck;
+        struck.sort_unstable_by_key(|&(pair, _)| self.pairs[pair].colliders);
+        for (pair, stays) in struck {
             self.pairs[pair].now.hits += 1;
             if stays && !self.pairs[pair].rests {
                 self.rest.take(self.bodies, self.pairs, pair, (self.law, span));
@@ -240,7 +257,7 @@ impl<'a> Events<'a> {
         let pair = &mut self.pairs[index];
         pair.now.fastest = pair.now.fastest.max(closing);
         let rattles = pair.now.hits >= RATTLE_HITS && closing < RATTLE_SPEED * pair.now.fastest;
-        let wedged = pair.rows.iter().any(|&row| self.touches_of_row[row] >= WEDGED_TOUCHES);
+        let wedged = pair.rows.iter().any(|&row| self.agenda.touches_of_row[row] >= WEDGED_TOUCHES);
         closing <= touch.rest_speed || rattles || wedged
     }
 
@@ -251,6 +268,7 @@ impl<'a> Events<'a> {
         }
         let until = if self.rest.is_held(row) { span.until } else { self.law.step };
         set_pace(self.bodies, row, until);
+        self.agenda.rerouted.push(row);
         self.claim_anew(row, span.from);
         for number in 0..self.pairs.count_of_row(row) {
             let index = self.pairs.of_row(row, number);
@@ -260,41 +278,14 @@ impl<'a> Events<'a> {
         }
     }
 
-    /// Looks for new neighbours of a body if its path has left what was searched.
+    /// Looks for new neighbours of a body if its path could lead out of its boxes.
     fn claim_anew(&mut self, row: usize, time: f64) {
-        let claim = claim(self.bodies, row, self.law.step);
-        let (old, grain) = (self.claims[row], self.bodies.grains[row]);
-        let slack = CLAIM * grain;
-        let turned = (claim.spin - old.spin).max(0.0) * (self.law.step - time) * grain;
-        if claim.end.distance(old.end) + turned <= slack {
-            return;
-        }
-        self.claims[row] = claim;
-        let slot = self.bodies.slot_of_row[row];
-        let keys = self.bodies.record(slot).map_or(Vec::new(), |record| record.colliders.clone());
-        for key in keys {
-            let Some(collider) = self.bodies.collider(key) else { continue };
-            let bounds = swept_bounds(self.bodies, collider, self.law.step - time);
-            let mut found = Vec::new();
-            self.broad_phase.move_within_step(self.bodies, key, &bounds, &mut found);
-            found.sort_unstable();
-            found.dedup();
-            for colliders in found {
-                if let Some(new) = self.pairs.add(self.bodies, colliders) {
-                    // To be asked by whoever asks all pairs of this body.
-                    self.pairs[new].now.asked_until = time;
-                }
+        self.broad_phase.move_within_step(self.bodies, row);
+        for &colliders in self.broad_phase.found() {
+            if let Some(new) = self.pairs.add(self.bodies, colliders) {
+                // To be asked by whoever asks all pairs of this body.
+                self.pairs[new].now.asked_until = time;
             }
         }
     }
-}
-
-/// How far a body may stray from the path that its neighbours were looked for along, as a share of its smallest reach.
-pub(crate) const CLAIM: f64 = 0.05;
-
-fn claim(bodies: &Bodies, row: usize, end: f64) -> Claim {
-    let (state, influence) = (&bodies.states[row], &bodies.influences[row]);
-    let left = end - bodies.clocks[row];
-    let end = state.position + state.velocity * left + influence.acceleration * (0.5 * left * left);
-    Claim { end, spin: bodies.paces[row].1 }
 }

@@ -75,7 +75,8 @@ impl Rest {
     pub fn begin_step(&mut self, bodies: &mut Bodies, pairs: &Pairs, parted: Vec<Pair>) {
         self.rows.grow(bodies.states.len());
         parted.iter().for_each(|pair| self.drop_contacts(pair));
-        self.resting = (0..pairs.len()).filter(|&index| pairs[index].rests).collect();
+        self.resting.retain(|&index| pairs.rests(index));
+        self.resting.sort_by_key(|&index| pairs[index].colliders);
         self.crowds.find(bodies, self.resting.iter().map(|&index| pairs[index].rows));
         let mut goes_on = true;
         while goes_on {
@@ -120,7 +121,8 @@ impl Rest {
     /// Gives contacts to the pairs that have come to rest against each other by `time`.
     pub fn adopt(&mut self, bodies: &mut Bodies, pairs: &mut Pairs, law: RestLaw, span: Span) {
         let margin = law.contact_margin();
-        for index in 0..pairs.len() {
+        for number in 0..pairs.count_of_watched() {
+            let index = pairs.watched(number);
             let pair = &pairs[index];
             let is_near = !pair.rests && !pair.sensor && pair.least_separation(bodies, span.from) <= margin;
             if !is_near || !pair.rows.into_iter().any(|row| stirs(bodies, row)) {
@@ -187,7 +189,9 @@ impl Rest {
     pub fn touching<'a>(&'a self, pairs: &'a Pairs, law: RestLaw) -> impl Iterator<Item = &'a Pair> {
         let margin = law.contact_margin() as f32;
         let touches = move |support: &Support| self.graph.get(support.contact, field::GAP) <= margin;
-        pairs.iter().filter(move |pair| pair.rests && pair.supports.iter().any(touches))
+        // A body that was lost since has taken its pairs with it.
+        let resting = self.resting.iter().filter(|&&index| pairs.rests(index)).map(|&index| &pairs[index]);
+        resting.filter(move |pair| pair.supports.iter().any(touches))
     }
 
     /// Whether all points of a pair that rests are so near that the contacts have them all.
