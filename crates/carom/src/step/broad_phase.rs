@@ -232,7 +232,8 @@ fn below_plane(bodies: &Bodies, plane: u32, bounds: &Bounds) -> bool {
     let up = pose.rotation * DVec3::Y;
     let lowest = DVec3::select(up.cmpgt(DVec3::ZERO), bounds.low, bounds.high);
     // Not a number where the box has no end: below, as far as anybody knows.
-    !((lowest - pose.position).dot(up) > 0.0)
+    let height = (lowest - pose.position).dot(up);
+    height <= 0.0 || height.is_nan()
 }
 
 /// Appends the pair, the collider of the lower slot first, if the two can have anything to do with each other.

@@ -119,7 +119,8 @@ impl Pair {
     /// (m, rad).
     pub(super) fn could_meet(&self, limits: [(f64, f64); 2], margin: f64) -> bool {
         let path = |side: usize| limits[side].0 + limits[side].1 * self.spin_reach[side];
-        !(self.clearance - (path(0) + path(1)) > margin.max(self.tolerance))
+        let left = self.clearance - (path(0) + path(1));
+        left <= margin.max(self.tolerance) || left.is_nan()
     }
 
     /// The two are `separation` apart at `time`.
