@@ -144,9 +144,7 @@ impl<'world> BodyMut<'world> {
         let (id, world) = (self.id, &mut *self.world);
         world.bodies.place(id.index() as u32, position, rotation.normalize());
         let keys = world.bodies.get(id).map_or(Vec::new(), |record| record.colliders.clone());
-        for &key in &keys {
-            world.forget_collider(key);
-        }
+        world.forget_colliders(&keys, row);
         world.enlist(id);
         self.publish(row);
         Ok(())

@@ -36,12 +36,12 @@ pub(crate) fn step(world: &mut World, time: f64) {
     world.ledger.open(&mut world.bodies, law.gravity);
 
     motion::begin_flight(&mut world.bodies, law.gravity, time);
-    let found = world.broad_phase.find_pairs(&world.bodies, time);
-    let parted = world.pairs.update(&world.bodies, &found);
+    world.broad_phase.find_pairs(&world.bodies, time);
+    let parted = world.pairs.update(&world.bodies, &mut world.broad_phase);
     world.rest.begin_step(&mut world.bodies, &world.pairs, parted);
 
     let nearby = (&mut world.pairs, &mut world.rest);
-    let mut events = Events::new(&mut world.bodies, &mut world.broad_phase, nearby, law);
+    let mut events = Events::new(&mut world.bodies, &mut world.broad_phase, nearby, &mut world.agenda, law);
     for number in 0..substeps {
         let at = |number: u32| time * f64::from(number) / f64::from(substeps);
         events.substep(Span { from: at(number), until: at(number + 1) });

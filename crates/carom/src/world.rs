@@ -10,6 +10,7 @@ use crate::math::DVec3;
 use crate::report::StepReport;
 use crate::solver::lanes::{InstructionSet, Machine};
 use crate::step::broad_phase::BroadPhase;
+use crate::step::events::Agenda;
 use crate::step::pairs::Pairs;
 use crate::step::pool::Pool;
 use crate::step::rest::Rest;
@@ -87,6 +88,7 @@ pub struct World {
     pub(crate) pairs: Pairs,
     pub(crate) rest: Rest,
     pub(crate) pool: Arc<Pool>,
+    pub(crate) agenda: Agenda,
     pub(crate) report: StepReport,
     pub(crate) ledger: Ledger,
     /// Bodies refused since the last step.
@@ -114,6 +116,7 @@ impl World {
             pairs: Pairs::default(),
             rest: Rest::new(Machine::new(instruction_set), Arc::clone(&pool)),
             pool,
+            agenda: Agenda::default(),
             report: StepReport::default(),
             ledger: Ledger::default(),
             refused: Vec::new(),
@@ -167,18 +170,22 @@ impl World {
 
     /// Takes what is left of a body that has lost its colliders and its row.
     pub(crate) fn forget(&mut self, colliders: &[u32], row: usize) {
-        colliders.iter().for_each(|&key| self.forget_collider(key));
+        self.forget_colliders(colliders, row);
         if row != WORLD_ROW {
             let last = self.bodies.states.len();
             self.rest.remove_row(row, last);
-            self.pairs.rename_row(last, row);
+            self.pairs.remove_row(row, last);
+            self.broad_phase.remove_row(row, last);
         }
     }
 
-    pub(crate) fn forget_collider(&mut self, key: u32) {
-        self.broad_phase.remove(key);
-        for pair in self.pairs.remove(key) {
-            self.rest.drop_contacts(&pair);
+    /// Takes the colliders of the body of a row from their neighbours.
+    pub(crate) fn forget_colliders(&mut self, keys: &[u32], row: usize) {
+        for &key in keys {
+            self.broad_phase.remove(key);
+            for pair in self.pairs.remove(key, row) {
+                self.rest.drop_contacts(&pair);
+            }
         }
     }
 

@@ -47,6 +47,13 @@ pub(crate) struct Mover {
     pub velocity: Velocity,
 }
 
+impl Mover {
+    /// Whether an impulse changes its velocity.
+    fn is_movable(&self) -> bool {
+        self.mass.is_finite() || self.inverse_inertia != DMat3::ZERO
+    }
+}
+
 /// A place where two bodies touch, or are tied.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Spot {
@@ -244,11 +251,31 @@ impl<'a> Round<'a> {
 
     /// Step 1.
     fn push_along_normals(&mut self) {
-        for _ in 0..SWEEPS {
-            let change = (0..self.spots.len()).map(|index| self.push_along_normal(index)).fold(0.0, f64::max);
-            if change <= (AGREEMENT * self.fastest).max(self.negligible) {
+        self.sweep((SWEEPS, AGREEMENT), Self::push_along_normal);
+    }
+
+    /// Lets one spot after the other `act`, which tells how much it has changed a speed (m/s), until nothing changes by more than a
+    /// share of the fastest or what is negligible; at most so many times. Spots none of whose bodies has changed since have nothing
+    /// to do.
+    fn sweep(&mut self, (sweeps, agreement): (usize, f64), act: impl Fn(&mut Self, usize) -> f64) {
+        let limit = (agreement * self.fastest).max(self.negligible);
+        let can_stir: Vec<bool> = self.movers.iter().map(Mover::is_movable).collect();
+        let (mut stirred, mut stirs) = (vec![true; self.movers.len()], vec![false; self.movers.len()]);
+        for _ in 0..sweeps {
+            let mut is_done = true;
+            for index in 0..self.spots.len() {
+                let movers = self.spots[index].movers;
+                if movers.into_iter().any(|mover| stirred[mover] || stirs[mover]) && act(self, index) > limit
+                {
+                    movers.into_iter().for_each(|mover| stirs[mover] = can_stir[mover]);
+                    is_done = false;
+                }
+            }
+            if is_done {
                 break;
             }
+            std::mem::swap(&mut stirred, &mut stirs);
+            stirs.fill(false);
         }
     }
 

@@ -1,108 +1,91 @@
-//! Broad phase: which colliders could touch during a step.
+//! Broad phase: which colliders could touch while their bodies fly?
 //!
-//! Each collider has a box around everything that it can reach during the step. Boxes live in two of parry's trees, one
-//! for what moves and one for what does not; boundless planes stand apart. Boxes of moving colliders have a margin, so
-//! that the trees stay as they are while little moves.
+//! Each collider has a fat box: around all that it can reach during the step, around where it will get in a few more if it goes
+//! on as it does, and a margin. Two colliders are a pair as long as their fat boxes meet. Only a body that could leave its fat
+//! boxes is looked at: they get new ones, and new pairs are looked for there alone. So what lies still costs a comparison, and what
+//! flies a search every few steps.
+//!
+//! Boxes live in two trees, one for what moves and one for what does not; boundless planes stand apart. Which pairs there
+//! are follows from boxes alone, whatever the trees look like.
+//!
+//! The idea of fat boxes is from Catto's *Dynamic bounding volume hierarchies* (2019).
+
+mod bounds;
+mod forecast;
+#[cfg(test)]
+mod tests;
+mod tree;
 
 use crate::bodies::{Bodies, ColliderRow, WORLD_ROW};
-use crate::flight::fly_center;
-use crate::math::{DVec3, Pose};
+use crate::math::DVec3;
 use crate::shape::Shape;
-use crate::step::events::CLAIM;
-use parry3d_f64::bounding_volume::Aabb;
-use parry3d_f64::partitioning::{Bvh, BvhWorkspace};
-
-/// A box in the world, m.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Bounds {
-    pub low: DVec3,
-    pub high: DVec3,
-}
-
-impl Bounds {
-    fn union(self, other: Bounds) -> Bounds {
-        Bounds { low: self.low.min(other.low), high: self.high.max(other.high) }
-    }
-
-    fn grown(self, by: f64) -> Bounds {
-        Bounds { low: self.low - DVec3::splat(by), high: self.high + DVec3::splat(by) }
-    }
-
-    fn aabb(&self) -> Aabb {
-        Aabb::new(self.low, self.high)
-    }
-
-    pub fn intersects(&self, other: &Bounds) -> bool {
-        self.low.cmple(other.high).all() && self.high.cmpge(other.low).all()
-    }
-}
-
-/// The box around all that a collider can reach in the next `time` seconds of its body's flight.
-///
-/// The centre of mass stays within `|a|t²/8` of the chord of its path; turning by an angle θ takes no point further
-/// than `reach·min(θ, 2)`.
-pub(crate) fn swept_bounds(bodies: &Bodies, collider: &ColliderRow, time: f64) -> Bounds {
-    let at = |pose: &Pose| {
-        let (low, high) = collider.shape.bounds(&pose.then_local(&collider.local));
-        Bounds { low, high }
-    };
-    let here = bodies.center_pose(collider);
-    if collider.row == WORLD_ROW {
-        return at(&here);
-    }
-    let (state, constants, influence) =
-        (&bodies.states[collider.row], &bodies.constants[collider.row], &bodies.influences[collider.row]);
-    let (end, _) = fly_center(state, constants, influence, time);
-    let bulge = influence.acceleration.length() * time * time / 8.0
-        + constants.linear_damping * state.velocity.length() * time * time / 8.0;
-    let angle = constants.spin_limit(state, influence, time) * time;
-    let start = at(&here);
-    start
-        .union(Bounds { low: start.low + (end - here.position), high: start.high + (end - here.position) })
-        .grown(bulge + collider.spin_reach * angle.min(2.0))
-}
+use bounds::{Bounds, present_bounds, swept_bounds};
+use forecast::Forecast;
+use tree::Tree;
 
 /// A pair of colliders, the one of the lower slot first.
 pub(crate) type ColliderPair = (u32, u32);
 
-/// Both trees and what they hold.
+/// Fat boxes, and whose they are.
 pub(crate) struct BroadPhase {
-    fixed: Bvh,
-    moving: Bvh,
-    workspace: BvhWorkspace,
+    fixed: Tree,
+    moving: Tree,
     planes: Vec<u32>,
-    moving_keys: Vec<u32>,
-    /// The boxes that bodies have been given within the present step, by collider.
-    rerouted: Vec<(u32, Bounds)>,
+    /// The fat box of each collider, by its key.
+    boxes: Vec<Bounds>,
+    /// Why each row's colliders stay in their boxes.
+    forecasts: Vec<Forecast>,
+    /// Colliders that do not move and have come since pairs were last looked for.
+    fresh: Vec<u32>,
+    /// Colliders that have got new boxes since pairs were last updated.
+    boxed: Vec<u32>,
+    found: Vec<ColliderPair>,
+    /// Since the world began, at the start of the present step; and how long that is, s.
+    time: f64,
+    step: f64,
 }
 
-/// Margin of a moving collider's box, m per metre of its reach.
+/// Margin of a fat box, m per metre of the collider's reach.
 const MARGIN: f64 = 0.1;
+
+/// A fat box reaches so many more steps ahead, at least and at most: twice as many as the one before if nobody was near,
+/// else half as many.
+const AHEAD: [f64; 2] = [2.0, 16.0];
 
 impl BroadPhase {
     pub fn new() -> Self {
         Self {
-            fixed: Bvh::new(),
-            moving: Bvh::new(),
-            workspace: BvhWorkspace::default(),
+            fixed: Tree::new(),
+            moving: Tree::new(),
             planes: Vec::new(),
-            moving_keys: Vec::new(),
-            rerouted: Vec::new(),
+            boxes: Vec::new(),
+            forecasts: Vec::new(),
+            fresh: Vec::new(),
+            boxed: Vec::new(),
+            found: Vec::new(),
+            time: 0.0,
+            step: 0.0,
         }
     }
 
     pub fn insert(&mut self, bodies: &Bodies, key: u32) {
         let Some(collider) = bodies.collider(key) else { return };
-        if matches!(collider.shape, Shape::Plane) {
-            self.planes.push(key);
-            return;
+        if self.boxes.len() <= key as usize {
+            self.boxes.resize(key as usize + 1, Bounds::NOTHING);
         }
-        let bounds = swept_bounds(bodies, collider, 0.0);
-        if collider.row == WORLD_ROW {
-            self.fixed.insert(bounds.aabb(), key);
+        self.boxes[key as usize] = Bounds::NOTHING;
+        if collider.row != WORLD_ROW {
+            // Gets its box when pairs are looked for.
+            self.grow(bodies.states.len());
+            self.forecasts[collider.row] = Forecast::NONE;
+        } else if matches!(collider.shape, Shape::Plane) {
+            self.planes.push(key);
+            self.fresh.push(key);
         } else {
-            self.moving.insert(bounds.aabb(), key);
-            self.moving_keys.push(key);
+            let bounds = present_bounds(bodies, collider).or_everything();
+            self.boxes[key as usize] = bounds;
+            self.fixed.set(key, &bounds);
+            self.fresh.push(key);
         }
     }
 
@@ -110,72 +93,135 @@ impl BroadPhase {
         self.fixed.remove(key);
         self.moving.remove(key);
         self.planes.retain(|&plane| plane != key);
-        self.moving_keys.retain(|&moving| moving != key);
+        self.fresh.retain(|&fresh| fresh != key);
+        self.boxed.retain(|&boxed| boxed != key);
     }
 
-    /// All pairs of colliders that could touch in the next `time` seconds and are allowed to, in order.
-    pub fn find_pairs(&mut self, bodies: &Bodies, time: f64) -> Vec<ColliderPair> {
-        self.rerouted.clear();
-        let mut reached = Vec::with_capacity(self.moving_keys.len());
-        for &key in &self.moving_keys {
+    /// The body of `row` is no more; that of the last row, `last`, gets its row.
+    pub fn remove_row(&mut self, row: usize, last: usize) {
+        self.grow(last + 1);
+        self.forecasts.swap_remove(row);
+    }
+
+    fn grow(&mut self, rows: usize) {
+        self.forecasts.resize(self.forecasts.len().max(rows), Forecast::NONE);
+    }
+
+    /// Finds the pairs that are new because of new boxes in a step of `time` seconds.
+    pub fn find_pairs(&mut self, bodies: &Bodies, time: f64) {
+        self.time += self.step;
+        self.step = time;
+        self.grow(bodies.states.len());
+        let before = self.boxed.len();
+        for row in bodies.rows() {
+            if !self.forecasts[row].holds(bodies, row, (self.time, time)) {
+                self.fit(bodies, row);
+            }
+        }
+        let boxes = &self.boxes;
+        self.moving.follow(|key| boxes[key as usize]);
+        self.fixed.follow(|key| boxes[key as usize]);
+        self.search(bodies, before);
+    }
+
+    /// A body has got a new path from its own time on: finds the pairs that are new because of it.
+    pub fn move_within_step(&mut self, bodies: &Bodies, row: usize) {
+        let before = self.boxed.len();
+        if !self.forecasts[row].holds(bodies, row, (self.time, self.step)) {
+            self.fit(bodies, row);
+        }
+        self.search(bodies, before);
+    }
+
+    /// What the last search has found, in order; some of it may be known already.
+    pub fn found(&self) -> &[ColliderPair] {
+        &self.found
+    }
+
+    /// The colliders that have got new boxes since they were last forgotten: some of their pairs may have parted.
+    pub fn boxed(&self) -> &[u32] {
+        &self.boxed
+    }
+
+    pub fn forget_boxed(&mut self) {
+        self.boxed.clear();
+    }
+
+    /// Whether two colliders, which are allowed to touch, are a pair.
+    pub fn are_near(&self, bodies: &Bodies, (a, b): ColliderPair) -> bool {
+        let is_plane = |key| bodies.collider(key).is_some_and(|it| matches!(it.shape, Shape::Plane));
+        let (one, other) = (&self.boxes[a as usize], &self.boxes[b as usize]);
+        match (is_plane(a), is_plane(b)) {
+            (true, true) => false,
+            (true, false) => below_plane(bodies, a, other),
+            (false, true) => below_plane(bodies, b, one),
+            (false, false) => one.intersects(other),
+        }
+    }
+
+    /// Gives new boxes to those of a body's colliders that could leave theirs by the end of the step.
+    fn fit(&mut self, bodies: &Bodies, row: usize) {
+        let Some(record) = bodies.record(bodies.slot_of_row[row]) else { return };
+        let left = self.step - bodies.clocks[row];
+        let steps_ahead = self.forecasts[row].steps_ahead();
+        let ahead = steps_ahead * self.step * bodies.states[row].velocity;
+        let (_, turned) = bodies.way(row, bodies.clocks[row]);
+        let duration = left + steps_ahead * self.step;
+        let mut forecast = Forecast::new(bodies, row, (self.time, duration), steps_ahead);
+        for &key in &record.colliders {
             let Some(collider) = bodies.collider(key) else { continue };
-            let bounds = swept_bounds(bodies, collider, time).grown(CLAIM * collider.reach);
-            let margin = MARGIN * collider.reach;
-            self.moving.insert_or_update_partially(bounds.aabb(), key, margin);
-            reached.push((key, bounds));
+            let here = present_bounds(bodies, collider);
+            let swept = swept_bounds(bodies, collider, here, left);
+            let fat = swept.union(swept.shifted(ahead)).grown(MARGIN * collider.reach).or_everything();
+            self.boxes[key as usize] = fat;
+            self.moving.set(key, &fat);
+            self.boxed.push(key);
+            let room = fat.room_around(&here).min(fat.room_around(&here.shifted(forecast.way())));
+            forecast.allow(room, (turned, collider.spin_reach));
         }
-        self.moving.refit(&mut self.workspace);
-        self.moving.optimize_incremental(&mut self.workspace);
-
-        let mut pairs = Vec::new();
-        self.moving.traverse_bvtt_single_tree::<false>(&mut self.workspace, &mut |a, b| {
-            push_pair(bodies, a, b, &mut pairs);
-        });
-        for (key, bounds) in &reached {
-            self.pairs_with_fixed(bodies, *key, bounds, &mut pairs);
-        }
-        pairs.sort_unstable();
-        pairs
+        self.forecasts[row] = forecast;
     }
 
-    /// Gives a moving collider another box within a step, and finds its pairs there.
-    pub fn move_within_step(
-        &mut self,
-        bodies: &Bodies,
-        key: u32,
-        bounds: &Bounds,
-        pairs: &mut Vec<ColliderPair>,
-    ) {
-        let reach = bodies.collider(key).map_or(0.0, |collider| collider.reach);
-        let bounds = bounds.grown(CLAIM * reach);
-        self.pairs_of(bodies, key, &bounds, pairs);
-        self.rerouted.retain(|&(other, _)| other != key);
-        for &(other, other_bounds) in &self.rerouted {
-            if other_bounds.intersects(&bounds) {
-                push_pair(bodies, key, other, pairs);
+    /// Finds the pairs of what has new boxes, from the place `from` in their list on, and of what is fresh.
+    fn search(&mut self, bodies: &Bodies, from: usize) {
+        self.found.clear();
+        let (found, boxes) = (&mut self.found, &self.boxes);
+        for &key in &self.boxed[from..] {
+            let before = found.len();
+            let bounds = boxes[key as usize];
+            let mut meet = |other: u32| {
+                if boxes[other as usize].intersects(&bounds) {
+                    push_pair(bodies, key, other, found);
+                }
+            };
+            self.moving.visit(&bounds, &mut meet);
+            self.fixed.visit(&bounds, &mut meet);
+            for &plane in self.planes.iter().filter(|&&plane| below_plane(bodies, plane, &bounds)) {
+                push_pair(bodies, key, plane, found);
+            }
+            if let Some(collider) = bodies.collider(key) {
+                let factor = if found.len() == before { 2.0 } else { 0.5 };
+                self.forecasts[collider.row].look_ahead(factor, AHEAD);
             }
         }
-        self.rerouted.push((key, bounds));
-    }
-
-    fn pairs_of(&self, bodies: &Bodies, key: u32, bounds: &Bounds, pairs: &mut Vec<ColliderPair>) {
-        let query = bounds.aabb();
-        for other in self.moving.intersect_aabb(&query) {
-            push_pair(bodies, key, other, pairs);
-        }
-        self.pairs_with_fixed(bodies, key, bounds, pairs);
-    }
-
-    fn pairs_with_fixed(&self, bodies: &Bodies, key: u32, bounds: &Bounds, pairs: &mut Vec<ColliderPair>) {
-        let query = bounds.aabb();
-        for other in self.fixed.intersect_aabb(&query) {
-            push_pair(bodies, key, other, pairs);
-        }
-        for &plane in &self.planes {
-            if below_plane(bodies, plane, bounds) {
-                push_pair(bodies, key, plane, pairs);
+        for key in self.fresh.drain(..) {
+            if self.planes.contains(&key) {
+                self.moving.visit(&Bounds::EVERYTHING, |other| {
+                    if below_plane(bodies, key, &boxes[other as usize]) {
+                        push_pair(bodies, key, other, found);
+                    }
+                });
+            } else {
+                let bounds = boxes[key as usize];
+                self.moving.visit(&bounds, |other| {
+                    if boxes[other as usize].intersects(&bounds) {
+                        push_pair(bodies, key, other, found);
+                    }
+                });
             }
         }
+        found.sort_unstable();
+        found.dedup();
     }
 }
 
@@ -185,7 +231,9 @@ fn below_plane(bodies: &Bodies, plane: u32, bounds: &Bounds) -> bool {
     let pose = bodies.center_pose(collider).then_local(&collider.local);
     let up = pose.rotation * DVec3::Y;
     let lowest = DVec3::select(up.cmpgt(DVec3::ZERO), bounds.low, bounds.high);
-    (lowest - pose.position).dot(up) <= 0.0
+    // Not a number where the box has no end: below, as far as anybody knows.
+    let height = (lowest - pose.position).dot(up);
+    height <= 0.0 || height.is_nan()
 }
 
 /// Appends the pair, the collider of the lower slot first, if the two can have anything to do with each other.

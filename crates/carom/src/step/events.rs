@@ -14,9 +14,8 @@
 use crate::bodies::{Bodies, WORLD_ROW};
 use crate::impacts::instant::Instant;
 use crate::impacts::time_of_impact::{Approach, RestLaw, Touch};
-use crate::math::DVec3;
 use crate::report::Impact;
-use crate::step::broad_phase::{BroadPhase, order, swept_bounds};
+use crate::step::broad_phase::{BroadPhase, order};
 use crate::step::motion::{advance, rouse, set_pace};
 use crate::step::pairs::Pairs;
 use crate::step::rest::{Rest, Span};
@@ -56,13 +55,42 @@ impl PartialOrd for Event {
     }
 }
 
-/// Where a body was to be at the end of the step when its neighbours were last looked for.
-#[derive(Clone, Copy, Debug)]
-struct Claim {
-    end: DVec3,
-    /// rad/s
-    spin: f64,
+/// What the touches of a step are kept in, from step to step.
+#[derive(Default)]
+pub(crate) struct Agenda {
+    queue: BinaryHeap<Reverse<Event>>,
+    touches_of_row: Vec<u32>,
+    /// Whether contacts have given each row a new path at the start of the substep.
+    is_renewed: Vec<bool>,
+    /// Rows that a touch has given new paths.
+    rerouted: Vec<usize>,
+    /// Pairs that are to be asked.
+    due: Vec<usize>,
 }
+
+impl Agenda {
+    fn clear(&mut self, rows: usize) {
+        self.queue.clear();
+        self.rerouted.clear();
+        self.touches_of_row.clear();
+        self.touches_of_row.resize(rows, 0);
+        self.is_renewed.clear();
+        self.is_renewed.resize(rows, false);
+    }
+}
+
+/// What a pair answers when it is asked for its next touch.
+struct Answer {
+    /// Until when it has been asked, s.
+    until: f64,
+    /// Its separation when it was asked, if somebody had to look, m.
+    separation: Option<f64>,
+    /// When it touches, if it does.
+    instant: Option<f64>,
+}
+
+/// So many pairs asked are worth sharing out.
+const QUESTIONS: usize = 64;
 
 /// The touches of one step.
 pub(crate) struct Events<'a> {
@@ -71,9 +99,7 @@ pub(crate) struct Events<'a> {
     pairs: &'a mut Pairs,
     rest: &'a mut Rest,
     law: RestLaw,
-    queue: BinaryHeap<Reverse<Event>>,
-    claims: Vec<Claim>,
-    touches_of_row: Vec<u32>,
+    agenda: &'a mut Agenda,
     impacts: Vec<Impact>,
     /// Rounds so far, of all instants.
     rounds: u32,
@@ -85,50 +111,59 @@ impl<'a> Events<'a> {
         bodies: &'a mut Bodies,
         broad_phase: &'a mut BroadPhase,
         (pairs, rest): (&'a mut Pairs, &'a mut Rest),
+        agenda: &'a mut Agenda,
         law: RestLaw,
     ) -> Self {
-        let rows = bodies.states.len();
-        let claims = (0..rows).map(|row| claim(bodies, row, law.step)).collect();
-        Self {
-            bodies,
-            broad_phase,
-            pairs,
-            rest,
-            law,
-            queue: BinaryHeap::new(),
-            claims,
-            touches_of_row: vec![0; rows],
-            impacts: Vec::new(),
-            rounds: 0,
-        }
+        agenda.clear(bodies.states.len());
+        pairs.begin_watch(bodies, (law.step, law.contact_margin()));
+        Self { bodies, broad_phase, pairs, rest, law, agenda, impacts: Vec::new(), rounds: 0 }
     }
 
     /// Lets a substep pass: contacts hold what rests, then touch comes after touch.
     pub fn substep(&mut self, span: Span) {
+        self.pairs.watch_again(self.bodies, self.agenda.rerouted.drain(..), self.law.step);
         self.rest.adopt(self.bodies, self.pairs, self.law, span);
-        for row in self.rest.hold(self.bodies, self.pairs, self.law, span) {
+        let renewed = self.rest.hold(self.bodies, self.pairs, self.law, span);
+        for &row in &renewed {
             self.claim_anew(row, span.from);
-            for number in 0..self.pairs.count_of_row(row) {
-                let pair = self.pairs.of_row(row, number);
-                self.pairs[pair].now.asked_until = span.from;
-            }
+            self.agenda.is_renewed[row] = true;
         }
-        for index in 0..self.pairs.len() {
-            let pair = &self.pairs[index];
-            let is_due = pair.now.asked_until < span.until && !pair.now.is_sensed;
-            if is_due && !(pair.rests && self.rest.is_closed(pair)) {
-                self.ask(index, span);
-            }
-        }
-        while let Some(Reverse(event)) = self.queue.peek().copied() {
+        self.pairs.watch_again(self.bodies, renewed.iter().copied(), self.law.step);
+        self.ask_due(span);
+        renewed.into_iter().for_each(|row| self.agenda.is_renewed[row] = false);
+        while let Some(Reverse(event)) = self.agenda.queue.peek().copied() {
             if event.time > span.until {
                 break;
             }
-            self.queue.pop();
+            self.agenda.queue.pop();
             if self.pairs[event.pair].now.stamp == event.stamp {
                 self.touch(event.pair, Span { from: event.time, ..span });
             }
         }
+    }
+
+    /// Asks the pairs that nobody has asked for this long, or whose bodies have got new paths since.
+    fn ask_due(&mut self, span: Span) {
+        let mut due = std::mem::take(&mut self.agenda.due);
+        for number in 0..self.pairs.count_of_watched() {
+            let index = self.pairs.watched(number);
+            let pair = &self.pairs[index];
+            let is_renewed = pair.rows.into_iter().any(|row| self.agenda.is_renewed[row]);
+            let is_due = (is_renewed || pair.now.asked_until < span.until) && !pair.now.is_sensed;
+            if !is_due {
+                continue;
+            }
+            if pair.rests && self.rest.is_closed(pair) {
+                self.pairs[index].now.asked_until = span.from;
+            } else {
+                due.push(index);
+            }
+        }
+        let answers = self.rest.pool().map(&due, QUESTIONS, |&index| self.answer(index, span));
+        for (index, answer) in due.drain(..).zip(answers) {
+            self.note(index, answer, span);
+        }
+        self.agenda.due = due;
     }
 
     /// All that has happened, each impact with its time within the step.
@@ -138,46 +173,53 @@ impl<'a> Events<'a> {
 
     /// Asks a pair when it will touch, from the start of `span` on.
     fn ask(&mut self, index: usize, span: Span) {
+        let answer = self.answer(index, span);
+        self.note(index, answer, span);
+    }
+
+    /// What a pair answers to that.
+    fn answer(&self, index: usize, span: Span) -> Answer {
         let pair = &self.pairs[index];
         let is_held = pair.rows.into_iter().any(|row| self.rest.is_held(row));
         let until = if is_held { span.until } else { self.law.step };
-        let pair = &mut self.pairs[index];
-        pair.now.stamp += 1;
-        (pair.now.asked_from, pair.now.asked_until) = (span.from, until);
-        let pair = &self.pairs[index];
+        let mut answer = Answer { until, separation: None, instant: None };
         let may_touch = if pair.rests {
             self.rest.is_driven(self.bodies, pair, self.law, span)
         } else {
             pair.least_separation(self.bodies, until) <= pair.tolerance
         };
-        if !may_touch {
-            return;
-        }
-        let Some(approach) = Approach::of(self.bodies, pair.colliders, self.law) else { return };
-        let instant = if pair.rests {
-            approach.next_touch(
-                self.pairs,
-                span.from,
-                until,
-                Some(self.rest.kept(self.bodies, pair, self.law)),
-            )
-        } else {
-            let separation = approach.separation(span.from);
-            let pair = &mut self.pairs[index];
-            pair.measured(self.bodies, separation, span.from);
-            if pair.least_separation(self.bodies, until) > approach.tolerance() {
-                return;
-            }
-            if self.pairs[index].sensor {
-                approach.first_overlap(span.from, until)
-            } else {
-                approach.next_touch(self.pairs, span.from, until, None)
-            }
+        let Some(approach) = Approach::of(self.bodies, pair.colliders, self.law).filter(|_| may_touch) else {
+            return answer;
         };
+        if pair.rests {
+            let kept = self.rest.kept(self.bodies, pair, (self.law, span.from));
+            answer.instant = approach.next_touch(self.pairs, span.from, until, Some(kept));
+            return answer;
+        }
+        let separation = approach.separation(span.from);
+        answer.separation = Some(separation);
+        if pair.least_after(self.bodies, (separation, span.from), until) > approach.tolerance() {
+            return answer;
+        }
+        answer.instant = if pair.sensor {
+            approach.first_overlap(span.from, until)
+        } else {
+            approach.next_touch(self.pairs, span.from, until, None)
+        };
+        answer
+    }
+
+    /// Notes what a pair has answered.
+    fn note(&mut self, index: usize, Answer { until, separation, instant }: Answer, span: Span) {
+        let pair = &mut self.pairs[index];
+        pair.now.stamp += 1;
+        (pair.now.asked_from, pair.now.asked_until) = (span.from, until);
+        if let Some(separation) = separation {
+            pair.measured(self.bodies, separation, span.from);
+        }
         if let Some(time) = instant {
-            let pair = &self.pairs[index];
-            let key = order(self.bodies, pair.colliders);
-            self.queue.push(Reverse(Event { time, key, pair: index, stamp: pair.now.stamp }));
+            let (key, stamp) = (order(self.bodies, pair.colliders), pair.now.stamp);
+            self.agenda.queue.push(Reverse(Event { time, key, pair: index, stamp }));
         }
     }
 
@@ -191,10 +233,14 @@ impl<'a> Events<'a> {
         for row in rows {
             rouse(self.bodies, row, self.law, time);
             advance(self.bodies, row, time);
-            self.touches_of_row[row] += u32::from(row != WORLD_ROW);
+            self.agenda.rerouted.push(row);
+            self.agenda.touches_of_row[row] += u32::from(row != WORLD_ROW);
         }
         let rests = self.pairs[index].rests;
-        let kept = rests.then(|| self.rest.kept(self.bodies, &self.pairs[index], self.law));
+        let kept = rests.then(|| {
+            let pair = &self.pairs[index];
+            self.rest.kept(self.bodies, pair, (self.law, pair.now.asked_from))
+        });
         let Some(approach) = Approach::of(self.bodies, colliders, self.law) else { return };
         let Some(touch) = approach.confirmed_touch(self.pairs, time, kept) else {
             // It vanished under a closer look: look again a moment later, the next time twice that.
@@ -224,7 +270,9 @@ impl<'a> Events<'a> {
             outcome.impacts.into_iter().map(|impact| Impact { round: self.rounds + impact.round, ..impact }),
         );
         self.rounds += rounds;
-        for (pair, stays) in outcome.struck {
+        let mut struck = outcome.struck;
+        struck.sort_unstable_by_key(|&(pair, _)| self.pairs[pair].colliders);
+        for (pair, stays) in struck {
             self.pairs[pair].now.hits += 1;
             if stays && !self.pairs[pair].rests {
                 self.rest.take(self.bodies, self.pairs, pair, (self.law, span));
@@ -251,7 +299,7 @@ impl<'a> Events<'a> {
         } else {
             pair.now.hits > 0 && closing < RATTLE_SPEED * pair.now.fastest.max(self.law.rest_speed())
         };
-        let wedged = pair.rows.iter().any(|&row| self.touches_of_row[row] >= WEDGED_TOUCHES);
+        let wedged = pair.rows.iter().any(|&row| self.agenda.touches_of_row[row] >= WEDGED_TOUCHES);
         closing <= touch.rest_speed || rattles || wedged
     }
 
@@ -262,6 +310,7 @@ impl<'a> Events<'a> {
         }
         let until = if self.rest.is_held(row) { span.until } else { self.law.step };
         set_pace(self.bodies, row, until);
+        self.agenda.rerouted.push(row);
         self.claim_anew(row, span.from);
         for number in 0..self.pairs.count_of_row(row) {
             let index = self.pairs.of_row(row, number);
@@ -271,41 +320,14 @@ impl<'a> Events<'a> {
         }
     }
 
-    /// Looks for new neighbours of a body if its path has left what was searched.
+    /// Looks for new neighbours of a body if its path could lead out of its boxes.
     fn claim_anew(&mut self, row: usize, time: f64) {
-        let claim = claim(self.bodies, row, self.law.step);
-        let (old, grain) = (self.claims[row], self.bodies.grains[row]);
-        let slack = CLAIM * grain;
-        let turned = (claim.spin - old.spin).max(0.0) * (self.law.step - time) * grain;
-        if claim.end.distance(old.end) + turned <= slack {
-            return;
-        }
-        self.claims[row] = claim;
-        let slot = self.bodies.slot_of_row[row];
-        let keys = self.bodies.record(slot).map_or(Vec::new(), |record| record.colliders.clone());
-        for key in keys {
-            let Some(collider) = self.bodies.collider(key) else { continue };
-            let bounds = swept_bounds(self.bodies, collider, self.law.step - time);
-            let mut found = Vec::new();
-            self.broad_phase.move_within_step(self.bodies, key, &bounds, &mut found);
-            found.sort_unstable();
-            found.dedup();
-            for colliders in found {
-                if let Some(new) = self.pairs.add(self.bodies, colliders) {
-                    // To be asked by whoever asks all pairs of this body.
-                    self.pairs[new].now.asked_until = time;
-                }
+        self.broad_phase.move_within_step(self.bodies, row);
+        for &colliders in self.broad_phase.found() {
+            if let Some(new) = self.pairs.add(self.bodies, colliders) {
+                // To be asked by whoever asks all pairs of this body.
+                self.pairs[new].now.asked_until = time;
             }
         }
     }
-}
-
-/// How far a body may stray from the path that its neighbours were looked for along, as a share of its smallest reach.
-pub(crate) const CLAIM: f64 = 0.05;
-
-fn claim(bodies: &Bodies, row: usize, end: f64) -> Claim {
-    let (state, influence) = (&bodies.states[row], &bodies.influences[row]);
-    let left = end - bodies.clocks[row];
-    let end = state.position + state.velocity * left + influence.acceleration * (0.5 * left * left);
-    Claim { end, spin: bodies.paces[row].1 }
 }

@@ -2,186 +2,140 @@
 //!
 //! A pair knows a distance that it had at some time, and how far its bodies have moved since: until these could have used it
 //! up, nobody has to look at the pair again. What lies still costs nothing, nor does what is far apart.
+//!
+//! ```text
+//! pairs.rs        all pairs, and those of each body
+//! pairs/pair.rs   one pair
+//! pairs/watch.rs  those that are looked at in each substep
+//! ```
+//!
+//! A pair keeps its index as long as it is near. Indices depend on what happened before; whoever walks pairs in an order that
+//! results depend on walks them in the order of their colliders' keys, as they stand in the lists here.
+
+mod pair;
+#[cfg(test)]
+mod tests;
+mod watch;
 
 use crate::bodies::{Bodies, WORLD_ROW};
-use crate::collide::Manifold;
-use crate::impacts::time_of_impact::tolerance;
-use crate::material::Surface;
-use crate::report::Feature;
-use crate::solver::graph::ContactId;
-use crate::step::broad_phase::ColliderPair;
+use crate::step::broad_phase::{BroadPhase, ColliderPair};
+pub(crate) use pair::{Pair, Support};
+use watch::Watch;
 
-/// Two colliders whose boxes overlap.
-pub(crate) struct Pair {
-    pub colliders: ColliderPair,
-    pub rows: [usize; 2],
-    /// What turns, m: how far a turn by one radian can take a point of each collider.
-    pub spin_reach: [f64; 2],
-    /// Separation up to which the surfaces count as touching, m.
-    pub tolerance: f64,
-    pub surface: Surface,
-    pub sensor: bool,
-    /// Whether the pair rests: it has supports then.
-    pub rests: bool,
-    pub supports: Vec<Support>,
-    /// A separation that the two had, plus how far their bodies had moved by then (m): they are at least this less
-    /// their present [`Pair::path`] apart.
-    clearance: f64,
-    /// What happens to it in this step.
-    pub now: Present,
+/// A pair in a list.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Entry {
+    colliders: ColliderPair,
+    index: u32,
 }
 
-/// A manifold of a pair that rests.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Support {
-    pub contact: ContactId,
-    features: [(Feature, Feature); 4],
-    count: usize,
-}
-
-impl Support {
-    pub fn new(contact: ContactId, manifold: &Manifold) -> Self {
-        let mut features = [(Feature::Surface, Feature::Surface); 4];
-        for (entry, point) in features.iter_mut().zip(manifold.points()) {
-            *entry = (point.feature_a, point.feature_b);
-        }
-        Self { contact, features, count: manifold.points().len() }
-    }
-
-    /// What touches at each point.
-    pub fn features(&self) -> &[(Feature, Feature)] {
-        &self.features[..self.count]
-    }
-}
-
-/// What happens to a pair in the present step.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Present {
-    /// Counts how often it was asked when it will touch.
-    pub stamp: u32,
-    /// From when until when it has been asked, s.
-    pub asked_from: f64,
-    pub asked_until: f64,
-    /// Impacts so far.
-    pub hits: u32,
-    /// The fastest of them, m/s.
-    pub fastest: f64,
-    /// Whether it is a sensor and what has been in it.
-    pub is_sensed: bool,
-    /// How long to look away after a touch that vanished under a closer look, as a share of the step.
-    pub patience: f64,
-}
-
-impl Present {
-    const NOTHING: Present = Present {
-        stamp: 0,
-        asked_from: 0.0,
-        asked_until: -1.0,
-        hits: 0,
-        fastest: 0.0,
-        is_sensed: false,
-        patience: 1e-9,
-    };
-}
-
-impl Pair {
-    fn new(bodies: &Bodies, colliders: ColliderPair) -> Option<Self> {
-        let (a, b) = (bodies.collider(colliders.0)?, bodies.collider(colliders.1)?);
-        Some(Self {
-            colliders,
-            rows: [a.row, b.row],
-            spin_reach: [a.spin_reach, b.spin_reach],
-            tolerance: tolerance(a, b),
-            surface: Surface::between(&a.material, &b.material),
-            sensor: a.sensor || b.sensor,
-            rests: false,
-            supports: Vec::new(),
-            clearance: f64::NEG_INFINITY,
-            now: Present::NOTHING,
-        })
-    }
-
-    /// How far the two bodies' points have moved until `time` within the step, m, since a time of no matter.
-    fn path(&self, bodies: &Bodies, time: f64) -> f64 {
-        let of = |side: usize| {
-            let (linear, angular) = bodies.way(self.rows[side], time);
-            linear + angular * self.spin_reach[side]
-        };
-        of(0) + of(1)
-    }
-
-    /// A lower bound of the separation at `time`, m.
-    pub fn least_separation(&self, bodies: &Bodies, time: f64) -> f64 {
-        self.clearance - self.path(bodies, time)
-    }
-
-    /// The two are `separation` apart at `time`.
-    pub fn measured(&mut self, bodies: &Bodies, separation: f64, time: f64) {
-        self.clearance = separation + self.path(bodies, time);
-    }
-}
-
-/// All pairs, in order of their colliders' keys.
+/// All pairs.
 #[derive(Default)]
 pub(crate) struct Pairs {
-    list: Vec<Pair>,
-    of_row: Vec<Vec<u32>>,
+    list: Vec<Option<Pair>>,
+    free: Vec<u32>,
+    /// The pairs of each body, in order of their colliders' keys.
+    of_row: Vec<Vec<Entry>>,
+    /// Pairs that somebody has got to change since the step began.
+    changed: Vec<u32>,
+    watch: Watch,
 }
 
 impl Pairs {
-    /// Takes over the pairs that were `found`, in ascending order; those that are no longer among them are returned if
-    /// they rest.
-    pub fn update(&mut self, bodies: &Bodies, found: &[ColliderPair]) -> Vec<Pair> {
-        self.list.sort_by_key(|pair| pair.colliders);
-        let mut old = std::mem::take(&mut self.list).into_iter().peekable();
-        let mut parted = Vec::new();
-        self.list.reserve(found.len());
-        for &colliders in found {
-            while let Some(gone) = old.next_if(|pair| pair.colliders < colliders) {
-                parted.extend(gone.rests.then_some(gone));
+    /// Starts a step: adds the pairs that the broad phase has found, and takes out those that are no longer near; these are
+    /// returned if they rest.
+    pub fn update(&mut self, bodies: &Bodies, broad_phase: &mut BroadPhase) -> Vec<Pair> {
+        for index in self.changed.drain(..) {
+            if let Some(pair) = &mut self.list[index as usize] {
+                pair.begin_step();
             }
-            let known = old.next_if(|pair| pair.colliders == colliders);
-            let Some(mut pair) = known.or_else(|| Pair::new(bodies, colliders)) else { continue };
-            pair.now = Present::NOTHING;
-            self.list.push(pair);
         }
-        parted.extend(old.filter(|pair| pair.rests));
-        self.index(bodies);
+        self.grow(bodies.states.len());
+        let mut parted = Vec::new();
+        for &key in broad_phase.boxed() {
+            let Some(row) = bodies.collider(key).map(|collider| collider.row) else { continue };
+            let mut number = 0;
+            while let Some(&entry) = self.of_row[row].get(number) {
+                if !entry.has(key) || broad_phase.are_near(bodies, entry.colliders) {
+                    number += 1;
+                } else {
+                    parted.extend(self.take_out(entry).filter(|pair| pair.rests));
+                }
+            }
+        }
+        broad_phase.forget_boxed();
+        parted.sort_unstable_by_key(|pair| pair.colliders);
+        for &colliders in broad_phase.found() {
+            self.add(bodies, colliders);
+        }
         parted
     }
 
-    fn index(&mut self, bodies: &Bodies) {
-        self.of_row.resize_with(bodies.states.len(), Vec::new);
-        self.of_row.iter_mut().for_each(Vec::clear);
-        for (index, pair) in self.list.iter().enumerate() {
-            for row in pair.rows.into_iter().filter(|&row| row != WORLD_ROW) {
-                self.of_row[row].push(index as u32);
-            }
+    fn grow(&mut self, rows: usize) {
+        if self.of_row.len() < rows {
+            self.of_row.resize_with(rows, Vec::new);
         }
     }
 
-    /// Adds a pair that has come near within the step; its place, if it was not known.
+    /// Adds a pair that has come near; its place, if it was not known.
     pub fn add(&mut self, bodies: &Bodies, colliders: ColliderPair) -> Option<usize> {
-        let pair = Pair::new(bodies, colliders)?;
-        let [a, b] = pair.rows;
-        let row = if a == WORLD_ROW { b } else { a };
-        if self.of_row[row].iter().any(|&known| self.list[known as usize].colliders == colliders) {
+        let (a, b) = (bodies.collider(colliders.0)?, bodies.collider(colliders.1)?);
+        let rows = [a.row, b.row];
+        let shorter =
+            rows.into_iter().filter(|&row| row != WORLD_ROW).min_by_key(|&row| self.of_row[row].len())?;
+        if self.find(shorter, colliders).is_ok() {
             return None;
         }
-        let index = self.list.len();
-        for row in pair.rows.into_iter().filter(|&row| row != WORLD_ROW) {
-            self.of_row[row].push(index as u32);
+        let pair = Pair::new(bodies, colliders)?;
+        let index = self.free.pop().unwrap_or_else(|| {
+            self.list.push(None);
+            (self.list.len() - 1) as u32
+        });
+        self.list[index as usize] = Some(pair);
+        let entry = Entry { colliders, index };
+        for row in rows.into_iter().filter(|&row| row != WORLD_ROW) {
+            let place = self.find(row, colliders).unwrap_or_else(|place| place);
+            self.of_row[row].insert(place, entry);
         }
-        self.list.push(pair);
-        Some(index)
+        self.watch(entry);
+        Some(index as usize)
     }
 
-    pub fn len(&self) -> usize {
+    fn find(&self, row: usize, colliders: ColliderPair) -> Result<usize, usize> {
+        self.of_row[row].binary_search_by_key(&colliders, |entry| entry.colliders)
+    }
+
+    fn take_out(&mut self, entry: Entry) -> Option<Pair> {
+        let pair = self.list[entry.index as usize].take()?;
+        self.free.push(entry.index);
+        for row in pair.rows.into_iter().filter(|&row| row != WORLD_ROW) {
+            if let Ok(place) = self.find(row, entry.colliders) {
+                self.of_row[row].remove(place);
+            }
+        }
+        Some(pair)
+    }
+
+    /// No index reaches this.
+    #[cfg(test)]
+    pub fn bound(&self) -> usize {
         self.list.len()
     }
 
+    /// All pairs, in no order.
+    #[cfg(test)]
     pub fn iter(&self) -> impl Iterator<Item = &Pair> {
-        self.list.iter()
+        self.list.iter().flatten()
+    }
+
+    /// The pairs that may have something to say about the present step, in no order.
+    pub fn changed(&self) -> impl Iterator<Item = &Pair> {
+        self.changed.iter().filter_map(|&index| self.list[index as usize].as_ref())
+    }
+
+    /// Whether there is a pair of this index, and rests.
+    pub fn rests(&self, index: usize) -> bool {
+        self.list[index].as_ref().is_some_and(|pair| pair.rests)
     }
 
     /// How many pairs the body of a row is in.
@@ -191,22 +145,39 @@ impl Pairs {
 
     /// One of them.
     pub fn of_row(&self, row: usize, number: usize) -> usize {
-        self.of_row[row][number] as usize
+        self.of_row[row][number].index as usize
     }
 
-    /// Takes out the pairs of a collider.
-    pub fn remove(&mut self, collider: u32) -> Vec<Pair> {
-        let is_in = |pair: &mut Pair| pair.colliders.0 == collider || pair.colliders.1 == collider;
-        let gone = self.list.extract_if(.., is_in).collect();
-        self.of_row.iter_mut().for_each(Vec::clear);
-        gone
+    /// Takes out the pairs of a collider of the body of a row.
+    pub fn remove(&mut self, collider: u32, row: usize) -> Vec<Pair> {
+        let entries: Vec<Entry> = if row == WORLD_ROW {
+            let all = self.list.iter().enumerate();
+            let entry = |(index, pair): (usize, &Option<Pair>)| {
+                Some(Entry { colliders: pair.as_ref()?.colliders, index: index as u32 })
+            };
+            all.filter_map(entry).filter(|entry| entry.has(collider)).collect()
+        } else {
+            let entries = self.of_row.get(row).into_iter().flatten();
+            entries.filter(|entry| entry.has(collider)).copied().collect()
+        };
+        entries.into_iter().filter_map(|entry| self.take_out(entry)).collect()
     }
 
-    /// The body of row `from` has moved to row `to`.
-    pub fn rename_row(&mut self, from: usize, to: usize) {
-        for row in self.list.iter_mut().flat_map(|pair| &mut pair.rows).filter(|row| **row == from) {
-            *row = to;
+    /// The body of `row` is no more, nor are its pairs; that of the last row, `last`, gets its row.
+    pub fn remove_row(&mut self, row: usize, last: usize) {
+        self.grow(last + 1);
+        self.of_row.swap_remove(row);
+        self.watch.remove_row(row, last);
+        for entry in self.of_row.get(row).into_iter().flatten() {
+            let pair = self.list[entry.index as usize].iter_mut();
+            pair.flat_map(|pair| &mut pair.rows).filter(|it| **it == last).for_each(|it| *it = row);
         }
+    }
+}
+
+impl Entry {
+    fn has(&self, collider: u32) -> bool {
+        self.colliders.0 == collider || self.colliders.1 == collider
     }
 }
 
@@ -214,12 +185,16 @@ impl std::ops::Index<usize> for Pairs {
     type Output = Pair;
 
     fn index(&self, index: usize) -> &Pair {
-        &self.list[index]
+        self.list[index].as_ref().expect("a pair's index is used as long as there is the pair")
     }
 }
 
 impl std::ops::IndexMut<usize> for Pairs {
     fn index_mut(&mut self, index: usize) -> &mut Pair {
-        &mut self.list[index]
+        let pair = self.list[index].as_mut().expect("a pair's index is used as long as there is the pair");
+        if !std::mem::replace(&mut pair.is_changed, true) {
+            self.changed.push(index as u32);
+        }
+        pair
     }
 }

@@ -73,11 +73,17 @@ impl Rest {
         }
     }
 
+    /// The threads that contacts are solved with.
+    pub fn pool(&self) -> &Pool {
+        self.graph.pool()
+    }
+
     /// Starts a step with other pairs; those that have `parted` lose their contacts.
     pub fn begin_step(&mut self, bodies: &mut Bodies, pairs: &Pairs, parted: Vec<Pair>) {
         self.rows.grow(bodies.states.len());
         parted.iter().for_each(|pair| self.drop_contacts(pair));
-        self.resting = (0..pairs.len()).filter(|&index| pairs[index].rests).collect();
+        self.resting.retain(|&index| pairs.rests(index));
+        self.resting.sort_by_key(|&index| pairs[index].colliders);
         self.crowds.find(bodies, self.resting.iter().map(|&index| pairs[index].rows));
         let mut goes_on = true;
         while goes_on {
@@ -122,7 +128,8 @@ impl Rest {
     /// Gives contacts to the pairs that have come to rest against each other by `time`.
     pub fn adopt(&mut self, bodies: &mut Bodies, pairs: &mut Pairs, law: RestLaw, span: Span) {
         let margin = law.contact_margin();
-        for index in 0..pairs.len() {
+        for number in 0..pairs.count_of_watched() {
+            let index = pairs.watched(number);
             let pair = &pairs[index];
             let is_near = !pair.rests && !pair.sensor && pair.least_separation(bodies, span.from) <= margin;
             if !is_near || !pair.rows.into_iter().any(|row| stirs(bodies, row)) {
@@ -189,7 +196,9 @@ impl Rest {
     pub fn touching<'a>(&'a self, pairs: &'a Pairs, law: RestLaw) -> impl Iterator<Item = &'a Pair> {
         let margin = law.contact_margin() as f32;
         let touches = move |support: &Support| self.graph.get(support.contact, field::GAP) <= margin;
-        pairs.iter().filter(move |pair| pair.rests && pair.supports.iter().any(touches))
+        // A body that was lost since has taken its pairs with it.
+        let resting = self.resting.iter().filter(|&&index| pairs.rests(index)).map(|&index| &pairs[index]);
+        resting.filter(move |pair| pair.supports.iter().any(touches))
     }
 
     /// Whether all points of a pair that rests are so near that the contacts have them all.
@@ -221,18 +230,18 @@ impl Rest {
         pushed.map(f64::from).sum::<f64>() > TRACE * weight
     }
 
-    /// Which points of a pair that rests its contacts see to.
-    pub fn kept(&self, bodies: &Bodies, pair: &Pair, law: RestLaw) -> Kept {
+    /// Which points of a pair that rests its contacts see to, if it is asked `since` some time within the step.
+    pub fn kept(&self, bodies: &Bodies, pair: &Pair, (law, since): (RestLaw, f64)) -> Kept {
         let grain = grain(bodies, pair);
         let pressed = if pair.surface.restitution > 0.0 { 0.0 } else { PRESSED * grain / law.substep };
-        Kept { horizon: horizon(pair, grain, law), since: pair.now.asked_from, pressed }
+        Kept { horizon: horizon(pair, grain, law), since, pressed }
     }
 
     /// Whether a point of a pair that rests will strike in the time left of a substep: one that comes from further away than
     /// contacts reach, or one that a collision has set in motion.
     pub fn is_driven(&self, bodies: &Bodies, pair: &Pair, law: RestLaw, span: Span) -> bool {
         let left = span.until - span.from;
-        let Kept { horizon, pressed, .. } = self.kept(bodies, pair, law);
+        let Kept { horizon, pressed, .. } = self.kept(bodies, pair, (law, span.from));
         let motion = pair.rows.map(|row| {
             let state = &bodies.states[row];
             (state.velocity, bodies.constants[row].angular_velocity(state))

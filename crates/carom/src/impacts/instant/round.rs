@@ -6,16 +6,19 @@ use crate::impacts::strike::{push, record, velocity_of};
 use crate::impulse::Velocity;
 use crate::math::DVec3;
 
-/// Where no contact bounces, speeds are found up to this share of the rest threshold.
+/// Where no contact bounces, speeds are found up to this share of the rest threshold; and up to the second, while it is sought who
+/// pushes.
 const NEGLIGIBLE: f64 = 1e-5;
+const ROUGH: f64 = 1e-2;
 
 impl Instant<'_> {
     /// Finds the impulses of a round in which at least `struck` push; returns which do.
     pub(super) fn reflect(&mut self, mut struck: Vec<usize>) -> (Vec<usize>, Vec<Blow>) {
         let mut earlier: Vec<Blow> = Vec::new();
+        let mut share = ROUGH;
         loop {
             let round = Cast::of(self, &struck);
-            let negligible = self.negligible(&struck);
+            let negligible = share * self.slowest(&struck);
             let blows = reflect(&round.movers, &round.spots, Start { blows: &earlier, negligible });
             let after = velocities_after(&round.movers, &round.spots, &blows);
             let moved = |(&mover, after): (&usize, &Velocity)| {
@@ -33,22 +36,25 @@ impl Instant<'_> {
                 spot.contact.restitution == 0.0 && !struck.contains(index) && self.strikes(*index, closing)
             });
             if more.is_empty() {
-                return (struck, blows);
+                if negligible == 0.0 || share == NEGLIGIBLE {
+                    return (struck, blows);
+                }
+                share = NEGLIGIBLE;
             }
             struck.append(&mut more);
             earlier = blows;
         }
     }
 
-    /// The change of speed (m/s) that is not worth a sweep in a round in which these push: where none bounces, a share of the rest
-    /// threshold of what gravity alone presses. Of a wall, to which nothing presses, the threshold is rounding.
-    fn negligible(&self, struck: &[usize]) -> f64 {
+    /// What speeds are small against in a round in which these push, m/s: where none bounces, the rest threshold, and not less than that of
+    /// what gravity alone presses. Against a wall, to which nothing presses, the threshold is rounding.
+    fn slowest(&self, struck: &[usize]) -> f64 {
         let places = || struck.iter().map(|&index| &self.places[index]);
         if places().any(|place| place.spot.contact.restitution > 0.0) {
             return 0.0;
         }
         let least = places().map(|place| place.rest_speed).fold(f64::MAX, f64::min);
-        NEGLIGIBLE * least.max(self.law.rest_speed())
+        least.max(self.law.rest_speed())
     }
 
     /// Gives the bodies their impulses; returns the movers whose velocities change.

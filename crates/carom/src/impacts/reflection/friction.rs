@@ -5,7 +5,7 @@ use crate::fault;
 use crate::math::DVec3;
 
 /// Sweeps over all contacts, which end when they change no velocity by more than this share of the fastest.
-const SWEEPS: usize = 100;
+const SWEEPS: usize = 1000;
 const AGREEMENT: f64 = 1e-10;
 
 impl Round<'_> {
@@ -15,12 +15,7 @@ impl Round<'_> {
     /// convex. On the way the energy changes by `a·(d·u₀) + ½a²·(d·Kd)` with `d = j − j₀`; the way ends where this would become positive.
     pub(super) fn rub(&mut self) {
         let (smooth, before) = (self.blows.clone(), self.velocities.clone());
-        for _ in 0..SWEEPS {
-            let change = (0..self.spots.len()).map(|index| self.push_and_rub(index)).fold(0.0, f64::max);
-            if change <= (AGREEMENT * self.fastest).max(self.negligible) {
-                break;
-            }
-        }
+        self.sweep((SWEEPS, AGREEMENT), Self::push_and_rub);
         let (mut first, mut second) = (0.0, 0.0);
         for (index, (spot, blow)) in self.spots.iter().zip(&self.blows).enumerate() {
             let further = blow.impulse(spot) - smooth[index].impulse(spot);

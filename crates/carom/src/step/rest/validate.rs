@@ -36,7 +36,7 @@ impl Rest {
     fn validate_resting(&self, pairs: &Pairs) {
         let mut resting = self.resting.clone();
         resting.sort_unstable();
-        let truth: Vec<usize> = (0..pairs.len()).filter(|&index| pairs[index].rests).collect();
+        let truth: Vec<usize> = (0..pairs.bound()).filter(|&index| pairs.rests(index)).collect();
         assert_eq!(resting, truth, "pairs that rest");
     }
 }

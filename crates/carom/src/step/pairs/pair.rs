@@ -1,0 +1,143 @@
+//! Two colliders that are near each other.
+
+use crate::bodies::Bodies;
+use crate::collide::Manifold;
+use crate::impacts::time_of_impact::tolerance;
+use crate::material::Surface;
+use crate::report::Feature;
+use crate::solver::graph::ContactId;
+use crate::step::broad_phase::ColliderPair;
+
+/// Two colliders whose boxes overlap.
+pub(crate) struct Pair {
+    pub colliders: ColliderPair,
+    pub rows: [usize; 2],
+    /// What turns, m: how far a turn by one radian can take a point of each collider.
+    pub spin_reach: [f64; 2],
+    /// Separation up to which the surfaces count as touching, m.
+    pub tolerance: f64,
+    pub surface: Surface,
+    pub sensor: bool,
+    /// Whether the pair rests: it has supports then.
+    pub rests: bool,
+    pub supports: Vec<Support>,
+    /// A separation that the two had, plus how far their bodies had moved by then (m): they are at least this less
+    /// their present [`Pair::path`] apart.
+    clearance: f64,
+    /// What happens to it in this step.
+    pub now: Present,
+    /// Whether `now` may say something.
+    pub(super) is_changed: bool,
+    pub(super) is_watched: bool,
+}
+
+/// A manifold of a pair that rests.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Support {
+    pub contact: ContactId,
+    features: [(Feature, Feature); 4],
+    count: usize,
+}
+
+impl Support {
+    pub fn new(contact: ContactId, manifold: &Manifold) -> Self {
+        let mut features = [(Feature::Surface, Feature::Surface); 4];
+        for (entry, point) in features.iter_mut().zip(manifold.points()) {
+            *entry = (point.feature_a, point.feature_b);
+        }
+        Self { contact, features, count: manifold.points().len() }
+    }
+
+    /// What touches at each point.
+    pub fn features(&self) -> &[(Feature, Feature)] {
+        &self.features[..self.count]
+    }
+}
+
+/// What happens to a pair in the present step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Present {
+    /// Counts how often it was asked when it will touch.
+    pub stamp: u32,
+    /// From when until when it has been asked, s.
+    pub asked_from: f64,
+    pub asked_until: f64,
+    /// Impacts so far.
+    pub hits: u32,
+    /// The fastest of them, m/s.
+    pub fastest: f64,
+    /// Whether it is a sensor and what has been in it.
+    pub is_sensed: bool,
+    /// How long to look away after a touch that vanished under a closer look, as a share of the step.
+    pub patience: f64,
+}
+
+impl Present {
+    pub(super) const NOTHING: Present = Present {
+        stamp: 0,
+        asked_from: 0.0,
+        asked_until: -1.0,
+        hits: 0,
+        fastest: 0.0,
+        is_sensed: false,
+        patience: 1e-9,
+    };
+}
+
+impl Pair {
+    pub(super) fn new(bodies: &Bodies, colliders: ColliderPair) -> Option<Self> {
+        let (a, b) = (bodies.collider(colliders.0)?, bodies.collider(colliders.1)?);
+        Some(Self {
+            colliders,
+            rows: [a.row, b.row],
+            spin_reach: [a.spin_reach, b.spin_reach],
+            tolerance: tolerance(a, b),
+            surface: Surface::between(&a.material, &b.material),
+            sensor: a.sensor || b.sensor,
+            rests: false,
+            supports: Vec::new(),
+            clearance: f64::NEG_INFINITY,
+            now: Present::NOTHING,
+            is_changed: false,
+            is_watched: false,
+        })
+    }
+
+    /// Forgets what has happened to it in the step before.
+    pub(super) fn begin_step(&mut self) {
+        self.now = Present::NOTHING;
+        self.is_changed = false;
+    }
+
+    /// How far the two bodies' points have moved until `time` within the step, m, since a time of no matter.
+    fn path(&self, bodies: &Bodies, time: f64) -> f64 {
+        let of = |side: usize| {
+            let (linear, angular) = bodies.way(self.rows[side], time);
+            linear + angular * self.spin_reach[side]
+        };
+        of(0) + of(1)
+    }
+
+    /// A lower bound of the separation at `time`, m.
+    pub fn least_separation(&self, bodies: &Bodies, time: f64) -> f64 {
+        self.clearance - self.path(bodies, time)
+    }
+
+    /// Whether the two could come within `margin` of each other, or touch, before their bodies' ways exceed `limits`
+    /// (m, rad).
+    pub(super) fn could_meet(&self, limits: [(f64, f64); 2], margin: f64) -> bool {
+        let path = |side: usize| limits[side].0 + limits[side].1 * self.spin_reach[side];
+        let left = self.clearance - (path(0) + path(1));
+        left <= margin.max(self.tolerance) || left.is_nan()
+    }
+
+    /// The same, if the two are `separation` apart (m) at an earlier time.
+    pub fn least_after(&self, bodies: &Bodies, (separation, earlier): (f64, f64), time: f64) -> f64 {
+        separation + self.path(bodies, earlier) - self.path(bodies, time)
+    }
+
+    /// The two are `separation` apart at `time`.
+    pub fn measured(&mut self, bodies: &Bodies, separation: f64, time: f64) {
+        self.clearance = separation + self.path(bodies, time);
+    }
+}
