@@ -108,7 +108,12 @@ fn footer(drawing: &mut Drawing, results: &Results, top: f64) -> f64 {
     ));
     let whole = |entrant: &crate::rounds::Entrant| entrant.summary.as_ref().is_none_or(|s| s.whole());
     if !results.cases.iter().flat_map(|case| &case.entrants).all(whole) {
-        lines.push("* stopped at the limit of time: of the steps that were done".to_string());
+        let stopped = if results.curves.is_empty() {
+            "* stopped at the limit of time: the mean of the steps that were done"
+        } else {
+            "What was stopped at the limit of time is not drawn."
+        };
+        lines.push(stopped.to_string());
     }
     let mut y = top + 4.0;
     for line in lines {
@@ -189,6 +194,14 @@ mod tests {
         {
             assert!(svg.contains(text), "{text}: {svg}");
         }
+    }
+
+    #[test]
+    fn what_was_written_and_read_draws_the_same() {
+        let measured = sample::results(sample::cases(), true);
+        let read: Results = serde_json::from_str(&serde_json::to_string(&measured).unwrap()).unwrap();
+        assert_eq!(svg(&read), svg(&measured));
+        assert_eq!(crate::report::text(&read), crate::report::text(&measured));
     }
 
     #[test]

@@ -8,7 +8,7 @@ use crate::curve::{Curve, Point};
 use crate::report::threads;
 use crate::rounds::Results;
 
-/// Dashes of 1, 2 and more threads, as they come.
+/// Dashes of the numbers of threads, in their order.
 const DASHES: [&str; 4] = ["none", "7 4", "2 3", "9 3 2 3"];
 
 /// Draws below `top`; returns where it ends.
@@ -40,7 +40,7 @@ impl Panel<'_> {
         let cell = self.cell;
         let frame = Frame {
             left: cell.left + 52.0,
-            top: cell.top + 40.0,
+            top: cell.top + 46.0,
             right: cell.right - 20.0,
             bottom: cell.bottom - 62.0 - self.keys as f64 * LINE,
         };
