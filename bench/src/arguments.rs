@@ -1,8 +1,9 @@
 //! The command line.
 
 use crate::engine::{self, ENGINES};
-use crate::scene::{self, DEFAULT_SCENES, SCENES, Size};
+use crate::scene::{self, DEFAULT_SCENES, Growth, SCENES, SIZES_SCENES, Size};
 use clap::Parser;
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::str::FromStr;
 
@@ -37,6 +38,16 @@ pub struct Arguments {
     #[arg(long, value_parser = at_least_one)]
     count: Option<usize>,
 
+    /// Cost against size: runs each scene with each of these counts, separated by commas [scenes: packed_boxes]
+    #[arg(
+        long,
+        value_name = "NUMBERS",
+        value_delimiter = ',',
+        value_parser = at_least_one,
+        conflicts_with_all = ["count", "base", "settle"]
+    )]
+    sizes: Vec<usize>,
+
     /// Boxes in the lowest course of pyramids
     #[arg(long, value_parser = at_least_one)]
     base: Option<usize>,
@@ -56,6 +67,14 @@ pub struct Arguments {
     /// Write everything that was measured to this file
     #[arg(long, value_name = "FILE")]
     pub json: Option<PathBuf>,
+
+    /// Draw a chart into this file: bars, or with `--sizes` lines
+    #[arg(long, value_name = "FILE")]
+    pub svg: Option<PathBuf>,
+
+    /// Measure nothing: report, and draw, what an earlier run wrote with `--json`
+    #[arg(long, value_name = "FILE", conflicts_with = "json")]
+    pub from: Option<PathBuf>,
 
     /// One measurement, described as the program itself does it
     #[arg(long, hide = true, value_name = "JOB")]
@@ -77,21 +96,38 @@ impl FromStr for Names {
 }
 
 impl Arguments {
-    /// How large scenes are to be.
-    pub fn size(&self) -> Size {
-        Size { count: self.count, base: self.base }
+    /// How large scenes are to be: one size, or from small to large those of `--sizes`.
+    pub fn sizes(&self) -> Vec<Size> {
+        if !self.grows() {
+            return vec![Size { count: self.count, base: self.base }];
+        }
+        let counts: BTreeSet<usize> = self.sizes.iter().copied().collect();
+        counts.into_iter().map(|count| Size { count: Some(count), base: None }).collect()
     }
 
-    /// The scenes asked for.
+    /// Whether cost against size is asked for.
+    pub fn grows(&self) -> bool {
+        !self.sizes.is_empty()
+    }
+
+    /// The scenes asked for. Those for `--sizes` must know a count.
     pub fn scenes(&self) -> Result<Vec<&'static scene::Entry>, String> {
+        let able = |entry: &&scene::Entry| !self.grows() || entry.growth != Growth::None;
         match &self.scenes {
-            None => Ok(DEFAULT_SCENES.iter().filter_map(|name| scene::find(name)).collect()),
-            Some(Names(names)) if names[..] == ["all"] => Ok(SCENES.iter().collect()),
+            None => {
+                let names = if self.grows() { &SIZES_SCENES[..] } else { &DEFAULT_SCENES[..] };
+                Ok(names.iter().filter_map(|name| scene::find(name)).collect())
+            }
+            Some(Names(names)) if names[..] == ["all"] => Ok(SCENES.iter().filter(able).collect()),
             Some(Names(names)) => {
-                let known = SCENES.iter().map(|entry| entry.name);
+                let known = SCENES.iter().filter(able).map(|entry| entry.name);
                 names
                     .iter()
-                    .map(|name| scene::find(name).ok_or_else(|| unknown("scene", name, known.clone())))
+                    .map(|name| {
+                        let found = scene::find(name).filter(able);
+                        let what = if self.grows() { "scene of many sizes" } else { "scene" };
+                        found.ok_or_else(|| unknown(what, name, known.clone()))
+                    })
                     .collect()
             }
         }
@@ -167,16 +203,33 @@ mod tests {
         assert_eq!(names, ["pile_boxes", "pyramid"]);
         assert_eq!(arguments.engines().unwrap().len(), 1);
         assert_eq!(arguments.threads, [1, 2]);
-        assert_eq!(arguments.size().count, Some(2000));
+        assert_eq!(arguments.sizes(), [Size { count: Some(2000), base: None }]);
         assert_eq!(parse("bench --scene all").scenes().unwrap().len(), SCENES.len());
         assert_eq!(parse("bench").engines().unwrap().len(), ENGINES.len());
+    }
+
+    #[test]
+    fn sizes_come_in_order_and_only_to_scenes_that_know_a_count() {
+        let arguments = parse("bench --sizes 500,100,500");
+        let counts: Vec<_> = arguments.sizes().iter().map(|size| size.count).collect();
+        assert_eq!(counts, [Some(100), Some(500)]);
+        assert_eq!(arguments.scenes().unwrap()[0].name, "packed_boxes");
+        assert!(parse("bench --sizes 9 --scene all").scenes().unwrap().len() < SCENES.len());
+        assert!(parse("bench --sizes 9 --scene pyramid").scenes().err().unwrap().contains("pile_boxes"));
     }
 
     #[test]
     fn what_is_not_there_is_named() {
         assert!(parse("bench --scene pyramids").scenes().err().unwrap().contains("pile_boxes"));
         assert!(parse("bench --engine bullet").engines().err().unwrap().contains("carom"));
-        for bad in ["--threads 0", "--rounds x", "--settle -1", "--settle inf", "--friction -1"] {
+        for bad in [
+            "--threads 0",
+            "--rounds x",
+            "--settle -1",
+            "--settle inf",
+            "--friction -1",
+            "--sizes 9 --count 9",
+        ] {
             assert!(Arguments::try_parse_from(format!("bench {bad}").split_whitespace()).is_err(), "{bad}");
         }
     }

@@ -9,15 +9,21 @@
 //! | `quality` | figures from poses alone, the same code for every engine |
 //! | `rounds` | all measurements, interleaved |
 //! | `summary` | what the rounds of one engine come to |
+//! | `curve` | cost against size, and its exponent |
 //! | `report`, `table` | what is printed |
+//! | `chart` | what is drawn |
 //! | `machine` | what it ran on; CPU time and memory of this process |
 
 mod arguments;
+mod chart;
+mod curve;
 mod engine;
 mod machine;
 mod quality;
 mod report;
 mod rounds;
+#[cfg(test)]
+mod sample;
 mod scene;
 mod summary;
 mod table;
@@ -25,7 +31,9 @@ mod worker;
 
 use arguments::Arguments;
 use clap::Parser;
+use rounds::Results;
 use std::io::Write;
+use std::path::Path;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -45,13 +53,29 @@ fn run() -> Result<ExitCode, String> {
         print(&worker::serve(job)?)?;
         return Ok(ExitCode::SUCCESS);
     }
-    let results = rounds::run(&arguments)?;
+    let results = match &arguments.from {
+        Some(file) => read(file)?,
+        None => rounds::run(&arguments)?,
+    };
     print(&report::text(&results))?;
     if let Some(file) = &arguments.json {
         let json = serde_json::to_string_pretty(&results).map_err(|error| error.to_string())?;
-        std::fs::write(file, json + "\n").map_err(|error| format!("{}: {error}", file.display()))?;
+        write(file, &(json + "\n"))?;
+    }
+    if let Some(file) = &arguments.svg {
+        write(file, &chart::svg(&results))?;
     }
     Ok(if results.failures.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}
+
+/// What an earlier run wrote.
+fn read(file: &Path) -> Result<Results, String> {
+    let text = std::fs::read_to_string(file).map_err(|error| format!("{}: {error}", file.display()))?;
+    serde_json::from_str(&text).map_err(|error| format!("{}: {error}", file.display()))
+}
+
+fn write(file: &Path, text: &str) -> Result<(), String> {
+    std::fs::write(file, text).map_err(|error| format!("{}: {error}", file.display()))
 }
 
 /// Writes to standard output; a reader who has seen enough is no error.

@@ -1,5 +1,7 @@
 //! What is printed.
 
+mod sizes;
+
 use crate::quality::{Quality, Settling};
 use crate::rounds::{Case, Entrant, Results};
 use crate::summary::{Ratio, Summary};
@@ -9,7 +11,10 @@ use crate::worker::Measurement;
 /// Everything, for people.
 pub fn text(results: &Results) -> String {
     let mut text = heading(results);
-    for case in &results.cases {
+    text += &sizes::text(results);
+    // Curves say in one table what so many cases would say in as many.
+    let cases = if results.curves.is_empty() { &results.cases[..] } else { &[] };
+    for case in cases {
         text += &title(case);
         if case.entrants.is_empty() {
             text += "  no engine here runs with so many threads\n";
@@ -37,8 +42,8 @@ fn heading(results: &Results) -> String {
     );
     let mut named = Vec::new();
     for entrant in results.cases.iter().flat_map(|case| &case.entrants) {
-        if !named.contains(&entrant.engine) {
-            named.push(entrant.engine);
+        if !named.contains(&&entrant.engine) {
+            named.push(&entrant.engine);
             text += &format!("  {}: {}; {}\n", entrant.engine, entrant.version, entrant.settings);
         }
     }
@@ -46,16 +51,16 @@ fn heading(results: &Results) -> String {
 }
 
 fn title(case: &Case) -> String {
-    let threads =
-        if case.threads == 1 { "1 thread".to_string() } else { format!("{} threads", case.threads) };
-    let Some(first) = case.entrants.iter().find_map(first_round) else {
+    let threads = threads(case.threads);
+    let Some(first) = case.entrants.iter().find_map(Entrant::first) else {
         return format!("\n{}, {threads}\n", case.scene);
     };
     format!("\n{}: {} bodies, {} steps, {threads}\n", case.scene, first.bodies, first.steps)
 }
 
-fn first_round(entrant: &Entrant) -> Option<&Measurement> {
-    entrant.rounds.first().map(|round| &round.measurement)
+/// A number of threads for people.
+pub fn threads(number: usize) -> String {
+    if number == 1 { "1 thread".to_string() } else { format!("{number} threads") }
 }
 
 /// Time and memory. The ratios are to the first row.
@@ -65,7 +70,7 @@ fn speed(case: &Case) -> Table {
         ["ms a step", "least", "mean", "median", "p99", "cpu", "peak MiB", "own MiB", &times, "rounds"];
     let mut table = Table::new(&headings);
     for entrant in &case.entrants {
-        let mut row = vec![entrant.engine.to_string()];
+        let mut row = vec![entrant.engine.clone()];
         if let Some(summary) = &entrant.summary {
             let Summary { least, mean, median, p99, cpu, .. } = *summary;
             row.extend([least, mean, median, p99, cpu].map(short));
@@ -104,8 +109,8 @@ fn quality(case: &Case) -> Table {
         "energy %",
     ]);
     for entrant in &case.entrants {
-        let mut row = vec![entrant.engine.to_string()];
-        if let Some(Measurement { quality, .. }) = first_round(entrant) {
+        let mut row = vec![entrant.engine.clone()];
+        if let Some(Measurement { quality, .. }) = entrant.first() {
             let Quality { overlap, motion, .. } = quality;
             row.push(overlap.pairs.to_string());
             row.extend([overlap.mean, overlap.p99, overlap.max].map(thousandths));
@@ -139,8 +144,8 @@ fn settling(case: &Case) -> Table {
         "escaped",
     ]);
     for entrant in &case.entrants {
-        let mut row = vec![entrant.engine.to_string()];
-        if let (Some(measurement), Some(summary)) = (first_round(entrant), &entrant.summary) {
+        let mut row = vec![entrant.engine.clone()];
+        if let (Some(measurement), Some(summary)) = (entrant.first(), &entrant.summary) {
             let Quality { overlap, motion, .. } = &measurement.quality;
             let Settling { centers, surfaces } = measurement.settling.unwrap_or_default();
             row.extend(
@@ -159,13 +164,14 @@ fn settling(case: &Case) -> Table {
 fn remarks(case: &Case) -> String {
     let mut text = String::new();
     for entrant in &case.entrants {
-        let Some(Summary { steps: (done, asked), repeats, .. }) = entrant.summary else { continue };
-        if done < asked {
+        let Some(summary) = &entrant.summary else { continue };
+        if !summary.whole() {
+            let (done, asked) = summary.steps;
             text += &format!(
                 "  {} was stopped after {done} of {asked} steps: its figures are of that part only\n",
                 entrant.engine
             );
-        } else if !repeats {
+        } else if !summary.repeats {
             text += &format!("  {} did not end with the same bits in every round\n", entrant.engine);
         }
     }

@@ -2,18 +2,19 @@
 //! engine goes first.
 
 use crate::arguments::Arguments;
+use crate::curve::Curve;
 use crate::engine::{self, DT};
 use crate::machine::Machine;
-use crate::scene;
+use crate::scene::{self, Size};
 use crate::summary::Summary;
 use crate::worker::{Job, Measurement};
 use indicatif::{ProgressBar, ProgressStyle};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// Everything that a run of the program found.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, Deserialize)]
 pub struct Results {
     /// What it ran on.
     pub machine: Machine,
@@ -21,14 +22,16 @@ pub struct Results {
     pub rounds: usize,
     /// Whether rest was watched for, in place of timing.
     pub settle: bool,
-    /// One for each scene with each number of threads.
+    /// One for each scene with each number of threads, at each size.
     pub cases: Vec<Case>,
+    /// Cost against size, where that was asked for.
+    pub curves: Vec<Curve>,
     /// What gave no result, and why.
     pub failures: Vec<String>,
 }
 
 /// A scene with a number of threads.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, Deserialize)]
 pub struct Case {
     /// The scene's name.
     pub scene: String,
@@ -39,14 +42,14 @@ pub struct Case {
 }
 
 /// One engine in one case.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, Deserialize)]
 pub struct Entrant {
     /// The engine's name.
-    pub engine: &'static str,
+    pub engine: String,
     /// Its name and version for people.
-    pub version: &'static str,
+    pub version: String,
     /// Its settings, in words.
-    pub settings: &'static str,
+    pub settings: String,
     /// What was asked of it.
     pub job: Job,
     /// What its rounds come to; `None` if there is no round.
@@ -56,7 +59,7 @@ pub struct Entrant {
 }
 
 /// One measurement of one engine.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, Deserialize)]
 pub struct Round {
     /// Which round, from 0.
     pub round: usize,
@@ -80,7 +83,7 @@ pub fn run(arguments: &Arguments) -> Result<Results, String> {
             for i in 0..n {
                 let entrant = &mut case.entrants[(i + round) % n];
                 let job = &entrant.job;
-                let what = format!("round {}, {} x{}, {}", round + 1, job.scene, job.threads, job.engine);
+                let what = describe(round, job);
                 progress.set_message(what.clone());
                 match measure(&program, job) {
                     Ok(measurement) => entrant.rounds.push(Round { round, measurement }),
@@ -92,7 +95,15 @@ pub fn run(arguments: &Arguments) -> Result<Results, String> {
     }
     progress.finish_and_clear();
     cases.iter_mut().for_each(Case::sum_up);
-    Ok(Results { machine: Machine::this(), rounds, settle: arguments.settle.is_some(), cases, failures })
+    let curves = if arguments.grows() { Curve::all(&cases) } else { Vec::new() };
+    let settle = arguments.settle.is_some();
+    Ok(Results { machine: Machine::this(), rounds, settle, cases, curves, failures })
+}
+
+/// A measurement for people.
+fn describe(round: usize, job: &Job) -> String {
+    let count = job.count.map_or(String::new(), |count| format!(" of {count}"));
+    format!("round {}, {}{count} x{}, {}", round + 1, job.scene, job.threads, job.engine)
 }
 
 /// Who runs what.
@@ -101,34 +112,44 @@ fn plan(arguments: &Arguments) -> Result<Vec<Case>, String> {
     let mut cases = Vec::new();
     for scene in &scenes {
         for &threads in &arguments.threads {
-            let able = engines.iter().filter(|entry| threads <= entry.max_threads);
-            let entrants = able.map(|entry| Entrant::new(entry, job(arguments, scene, entry, threads)));
-            cases.push(Case { scene: scene.name.to_string(), threads, entrants: entrants.collect() });
+            for size in arguments.sizes() {
+                let job = job(arguments, scene, size, threads);
+                let able = engines.iter().filter(|entry| threads <= entry.max_threads);
+                let entrants = able.map(|entry| Entrant::new(entry, &job)).collect();
+                cases.push(Case { scene: scene.name.to_string(), threads, entrants });
+            }
         }
     }
     Ok(cases)
 }
 
-fn job(arguments: &Arguments, scene: &scene::Entry, entry: &engine::Entry, threads: usize) -> Job {
-    let size = arguments.size();
+/// What is asked of every engine; who, is still open.
+fn job(arguments: &Arguments, scene: &scene::Entry, size: Size, threads: usize) -> Job {
     let settle = arguments.settle.map(|seconds| (seconds / DT).round().max(1.0) as usize);
+    let alike = size.count.filter(|_| arguments.grows()).map(|count| scene.steps_with(count));
     Job {
         scene: scene.name.to_string(),
-        engine: entry.name.to_string(),
+        engine: String::new(),
         threads,
         count: size.count,
         base: size.base,
         friction: arguments.friction,
-        steps: settle.or(arguments.steps),
+        steps: settle.or(arguments.steps).or(alike),
         settle: settle.is_some(),
         limit: arguments.limit,
     }
 }
 
 impl Entrant {
-    fn new(entry: &engine::Entry, job: Job) -> Self {
-        let engine::Entry { name, version, settings, .. } = *entry;
-        Self { engine: name, version, settings, job, summary: None, rounds: Vec::new() }
+    fn new(entry: &engine::Entry, job: &Job) -> Self {
+        let [engine, version, settings] = [entry.name, entry.version, entry.settings].map(String::from);
+        let job = Job { engine: engine.clone(), ..job.clone() };
+        Self { engine, version, settings, job, summary: None, rounds: Vec::new() }
+    }
+
+    /// The first measurement that there is: quality and counts are taken from it.
+    pub fn first(&self) -> Option<&Measurement> {
+        self.rounds.first().map(|round| &round.measurement)
     }
 }
 
@@ -189,12 +210,25 @@ mod tests {
         assert_eq!(cases[0].entrants.len(), engine::ENGINES.len());
         for case in &cases {
             for entrant in &case.entrants {
-                assert!(case.threads <= engine::find(entrant.engine).unwrap().max_threads);
+                assert!(case.threads <= engine::find(&entrant.engine).unwrap().max_threads);
                 assert_eq!(
                     (entrant.job.steps, entrant.job.base, entrant.job.settle),
                     (Some(120), Some(4), true)
                 );
             }
         }
+    }
+
+    #[test]
+    fn every_size_has_a_case_with_as_many_steps_as_show_the_same() {
+        let line = "bench --scene pile_boxes,packed_boxes --sizes 100,800 --threads 1,2";
+        let arguments = Arguments::try_parse_from(line.split_whitespace()).unwrap();
+        let cases = plan(&arguments).unwrap();
+        let asked = |case: &Case| (case.threads, case.entrants[0].job.count, case.entrants[0].job.steps);
+        let pile = scene::find("pile_boxes").unwrap();
+        assert_eq!(cases.len(), 8);
+        assert_eq!(asked(&cases[0]), (1, Some(100), Some(pile.steps_with(100))));
+        assert_eq!(asked(&cases[3]), (2, Some(800), Some(pile.steps_with(800))));
+        assert_eq!(asked(&cases[5]), (1, Some(800), Some(60)));
     }
 }

@@ -3,11 +3,15 @@
 //! SI units, y up, quaternions `[x, y, z, w]`. Numbers are single precision because that is what most engines keep: nobody
 //! rounds another scene than the others.
 
+mod catalogue;
 mod gas;
+mod packed;
 mod piles;
 mod pyramids;
 mod random;
 mod terrain;
+
+pub use catalogue::{DEFAULT_SCENES, Entry, Growth, SCENES, SIZES_SCENES, find};
 
 use std::sync::Arc;
 
@@ -128,6 +132,12 @@ impl Scene {
         self.bodies.iter_mut().filter(|body| body.friction > 0.0).for_each(|body| body.friction = friction);
     }
 
+    /// Where the highest dynamic body starts, m above y = 0.
+    pub fn height(&self) -> f64 {
+        let dynamic = self.bodies.iter().filter(|body| !body.fixed);
+        dynamic.map(|body| f64::from(body.position[1])).fold(0.0, f64::max)
+    }
+
     /// How many bodies move.
     pub fn dynamic_count(&self) -> usize {
         self.bodies.iter().filter(|body| !body.fixed).count()
@@ -141,47 +151,6 @@ pub struct Size {
     pub count: Option<usize>,
     /// Boxes in a pyramid's lowest course.
     pub base: Option<usize>,
-}
-
-/// A scene that can be asked for by name.
-pub struct Entry {
-    /// What the command line calls it.
-    pub name: &'static str,
-    /// One line for people.
-    pub about: &'static str,
-    /// Writes it down.
-    pub build: fn(Size) -> Scene,
-}
-
-/// All scenes, in the order in which they run.
-pub const SCENES: &[Entry] = &[
-    Entry { name: "pyramid", about: "a wall of unit boxes, 40 in the lowest course", build: pyramids::one },
-    Entry { name: "many_pyramids", about: "196 such walls, 10 in the lowest course", build: pyramids::many },
-    Entry { name: "pile_boxes", about: "4,000 boxes dropped into a pit", build: piles::boxes },
-    Entry {
-        name: "pile_mixed",
-        about: "4,000 spheres, capsules, boxes and hulls in a pit",
-        build: piles::mixed,
-    },
-    Entry { name: "pile_spheres", about: "8,000 spheres dropped into a pit", build: piles::spheres },
-    Entry {
-        name: "mesh_terrain",
-        about: "2,000 of four kinds on hills of 32,768 triangles",
-        build: terrain::hills,
-    },
-    Entry {
-        name: "elastic_gas",
-        about: "2,000 spheres that lose nothing, without gravity",
-        build: gas::elastic,
-    },
-];
-
-/// The scenes that run where none is asked for.
-pub const DEFAULT_SCENES: [&str; 3] = ["pyramid", "pile_boxes", "pile_mixed"];
-
-/// The scene of that name.
-pub fn find(name: &str) -> Option<&'static Entry> {
-    SCENES.iter().find(|entry| entry.name == name)
 }
 
 /// Half of a box's edges as a shape.
@@ -251,38 +220,6 @@ mod tests {
 
     const PYRAMID: u64 = 0xcb1c_0757_30a4_c14c;
     const PILE_BOXES: u64 = 0x5742_a404_01b1_82eb;
-
-    #[test]
-    fn the_scenes_have_the_counts_they_promise() {
-        let counts = [820, 10_780, 4000, 4000, 8000, 2000, 2000];
-        for (entry, count) in SCENES.iter().zip(counts) {
-            assert_eq!((entry.build)(Size::default()).dynamic_count(), count, "{}", entry.name);
-        }
-        for entry in &SCENES[2..] {
-            for count in [1, 30, 2000] {
-                let scene = (entry.build)(Size { count: Some(count), base: None });
-                assert_eq!(scene.dynamic_count(), count, "{}", entry.name);
-            }
-        }
-        let small = (find("pyramid").unwrap().build)(Size { count: None, base: Some(4) });
-        assert_eq!(small.dynamic_count(), 10);
-    }
-
-    /// Nobody starts out of bounds, and nobody far inside another: at most the corners of neighbours meet.
-    #[test]
-    fn the_scenes_start_in_bounds_and_almost_without_overlap() {
-        for entry in SCENES {
-            for count in [30, 500] {
-                let scene = (entry.build)(Size { count: Some(count), base: Some(5) });
-                let start = crate::quality::Poses::of_scene(&scene);
-                let judge = crate::quality::Judge::new(&scene);
-                let overlap = judge.overlap(&start);
-                assert!(overlap.max < 0.2, "{} of {count}: {overlap:?}", entry.name);
-                assert!(overlap.pairs * 20 < scene.bodies.len(), "{} of {count}: {overlap:?}", entry.name);
-                assert_eq!(judge.escaped(&start), 0, "{} of {count}", entry.name);
-            }
-        }
-    }
 
     #[test]
     fn what_is_frictionless_stays_so() {

@@ -2,10 +2,10 @@
 
 use crate::quality::quantile;
 use crate::worker::Measurement;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Times are ms a step.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Summary {
     /// The least of the rounds' means: what disturbs a machine only ever makes a round slower.
     pub least: f64,
@@ -30,7 +30,7 @@ pub struct Summary {
 }
 
 /// A ratio of times.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Ratio {
     /// Of the least means of all rounds.
     pub least: f64,
@@ -41,6 +41,11 @@ pub struct Ratio {
 }
 
 impl Summary {
+    /// Whether every round did all the steps that were asked for.
+    pub fn whole(&self) -> bool {
+        self.steps.0 == self.steps.1
+    }
+
     /// Sums up rounds, given with their numbers, against those of a `reference`; `None` if not a step was done.
     pub fn of(rounds: &[(usize, Measurement)], reference: &[(usize, Measurement)]) -> Option<Self> {
         let measured = || rounds.iter().map(|(_, measurement)| measurement);
@@ -91,31 +96,7 @@ fn mean(measurement: &Measurement) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::quality::{Energy, Motion, Overlap, Quality};
-
-    fn measurement(step_ms: &[f64], steps: usize, hash: &str) -> Measurement {
-        let quality = Quality {
-            overlap: Overlap::default(),
-            displacement_max: 0.0,
-            escaped: 0,
-            motion: Motion::default(),
-            reported_speed_max: 0.0,
-            energy_start: Energy::default(),
-            energy_end: Energy::default(),
-            hash: hash.to_string(),
-        };
-        Measurement {
-            bodies: 1,
-            steps,
-            step_ms: step_ms.to_vec(),
-            cpu_ms: 2.0 * step_ms.iter().sum::<f64>(),
-            build_ms: 1.0,
-            memory_before: 4.0,
-            memory_peak: 10.0,
-            quality,
-            settling: None,
-        }
-    }
+    use crate::sample::measurement;
 
     #[test]
     fn means_ratios_and_their_spread() {

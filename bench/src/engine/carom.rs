@@ -21,9 +21,12 @@ struct Carom {
 }
 
 fn start(conditions: Conditions) -> Box<dyn Engine> {
+    Box::new(Carom { world: world(conditions), bodies: Vec::new() })
+}
+
+fn world(conditions: Conditions) -> World {
     let (gravity, threads) = (wide(conditions.gravity), conditions.threads as u32);
-    let world = World::with_settings(Settings { gravity, threads, ..Settings::default() });
-    Box::new(Carom { world, bodies: Vec::new() })
+    World::with_settings(Settings { gravity, threads, ..Settings::default() })
 }
 
 fn wide(vector: [f32; 3]) -> DVec3 {
@@ -78,5 +81,34 @@ impl Engine for Carom {
 
     fn velocity(&self, body: usize) -> DVec3 {
         self.world[self.bodies[body]].linear_velocity().as_dvec3()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine;
+    use crate::quality::{Judge, Poses};
+    use crate::scene::{self, Size};
+
+    #[test]
+    fn the_world_gets_as_many_threads_as_were_asked_for() {
+        for threads in [1, 2, 3] {
+            let world = world(Conditions { gravity: [0.0; 3], threads });
+            assert_eq!(world.settings().threads as usize, threads);
+        }
+    }
+
+    /// However many threads step it, a pile ends with the same bits.
+    #[test]
+    fn threads_change_no_bit() {
+        let scene = (scene::find("pile_mixed").unwrap().build)(Size { count: Some(40), base: None });
+        let hashes = [1, 2].map(|threads| {
+            let mut world = engine::load(&ENTRY, &scene, threads);
+            (0..60).for_each(|_| world.step());
+            let end = Poses((0..scene.bodies.len()).map(|body| world.pose(body)).collect());
+            Judge::new(&scene).hash(&end)
+        });
+        assert_eq!(hashes[0], hashes[1]);
     }
 }

@@ -45,7 +45,7 @@ impl Columns {
 }
 
 /// A floor whose top is at y = 0 and four walls around |x|, |z| < `half`.
-fn pit(half: f32) -> Vec<Body> {
+pub fn pit(half: f32) -> Vec<Body> {
     let (thickness, height) = (WALL_HALF_THICKNESS, 0.5 * WALL_HEIGHT);
     let long = cuboid([thickness, height, half + 2.0 * thickness]);
     let short = cuboid([half, height, thickness]);
