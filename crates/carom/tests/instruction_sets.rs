@@ -182,12 +182,12 @@ const THREADS: [u32; 3] = [1, 2, 4];
 
 /// The hashes of states and events of [pile, mesh, gas, cradle, stack, crowd].
 const EXPECTED: [[u64; 2]; 6] = [
-    [0x3fb4_76d7_2af5_0bf2, 0x2254_0150_9067_752e],
-    [0xf3d3_cfce_6fb1_aacc, 0x3e85_1ff1_255f_3cd1],
+    [0x3c04_4ae4_7f3f_7d33, 0x3653_d05b_e9da_3c41],
+    [0x7f3d_1ba0_5f38_cace, 0x854c_d952_c43f_f330],
     [0x82e7_4950_5da6_dd2e, 0xcf19_842b_7889_4af9],
     [0xc1e1_fd04_731e_91a0, 0xf840_eec8_201f_e158],
-    [0x29e3_9c14_293c_0de8, 0x720f_55f0_58ed_ec5e],
-    [0xaf2d_3534_16dd_1a81, 0x9da4_6d71_7726_5702],
+    [0x799d_2f88_2cbd_60eb, 0xf3ec_1938_f169_673a],
+    [0x3936_033c_d09e_463d, 0x7f0f_5b74_2635_9ec8],
 ];
 
 #[test]
