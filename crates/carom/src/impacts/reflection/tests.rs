@@ -1,5 +1,7 @@
 //! The five requirements of Smith et al. (2012), what mixed restitution, friction and ties keep, and that one contact is the seed's.
 
+mod long_rows;
+
 use super::*;
 use crate::math::DMat3;
 

@@ -1,0 +1,23 @@
+//! Rounds that take many sweeps.
+
+use super::*;
+
+/// A hundred sweeps with friction left balls of a long row closing.
+#[test]
+fn what_is_struck_with_friction_in_a_long_row_closes_no_more() {
+    let slant = DVec3::new(0.8, 0.6, 0.0);
+    let movers: Vec<Mover> =
+        (0..40).map(|index| ball(1.0, if index == 0 { slant } else { DVec3::ZERO })).collect();
+    let rough = |spot: Spot| Spot {
+        contact: Contact { static_friction: 0.5, dynamic_friction: 0.5, ..spot.contact },
+        ..spot
+    };
+    let spots: Vec<Spot> = (1..40).map(|index| rough(between([index - 1, index], DVec3::X, 0.0))).collect();
+    let blows = reflect(&movers, &spots, Start { blows: &[], negligible: 1e-9 });
+    let after = velocities_after(&movers, &spots, &blows);
+    let slowest = spots
+        .iter()
+        .map(|spot| spot.velocity(|mover| after[mover]).dot(spot.contact.normal))
+        .fold(0.0, f64::min);
+    assert!(slowest > -1e-6, "{slowest} m/s");
+}
