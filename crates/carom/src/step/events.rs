@@ -11,6 +11,8 @@
 //!
 //! Order: by time, then by bodies and colliders; so the same scene gives the same bits.
 
+mod agenda;
+
 use crate::bodies::{Bodies, WORLD_ROW};
 use crate::impacts::instant::Instant;
 use crate::impacts::time_of_impact::{Approach, RestLaw, Touch};
@@ -19,8 +21,9 @@ use crate::step::broad_phase::{BroadPhase, order};
 use crate::step::motion::{advance, rouse, set_pace};
 use crate::step::pairs::Pairs;
 use crate::step::rest::{Rest, Span};
-use std::cmp::{Ordering, Reverse};
-use std::collections::BinaryHeap;
+pub(crate) use agenda::Agenda;
+use agenda::Event;
+use std::cmp::Reverse;
 
 /// So many impacts of one pair in one step are taken one by one. If it is then down to this fraction of its fastest, the
 /// pair is a ball that rattles itself to rest, and rests. Where nothing bounces one impact is enough: what closes again, as slowly
@@ -30,54 +33,6 @@ const RATTLE_SPEED: f64 = 0.01;
 
 /// So many touches of one body in one step are taken one by one; a body with more is wedged, and its touches rest.
 const WEDGED_TOUCHES: u32 = 1024;
-
-/// A pair will touch at an instant of the step, unless its paths have changed since (then the stamps differ).
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Event {
-    time: f64,
-    key: (u32, u32, u32, u32),
-    pair: usize,
-    stamp: u32,
-}
-
-impl Eq for Event {}
-
-impl Ord for Event {
-    fn cmp(&self, other: &Self) -> Ordering {
-        let rank = |event: &Event| (event.key, event.pair, event.stamp);
-        self.time.total_cmp(&other.time).then(rank(self).cmp(&rank(other)))
-    }
-}
-
-impl PartialOrd for Event {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-/// What the touches of a step are kept in, from step to step.
-#[derive(Default)]
-pub(crate) struct Agenda {
-    queue: BinaryHeap<Reverse<Event>>,
-    touches_of_row: Vec<u32>,
-    /// Whether contacts have given each row a new path at the start of the substep.
-    is_renewed: Vec<bool>,
-    /// Rows that a touch has given new paths.
-    rerouted: Vec<usize>,
-    /// Pairs that are to be asked.
-    due: Vec<usize>,
-}
-
-impl Agenda {
-    fn clear(&mut self, rows: usize) {
-        self.queue.clear();
-        self.rerouted.clear();
-        self.touches_of_row.clear();
-        self.touches_of_row.resize(rows, 0);
-        self.is_renewed.clear();
-        self.is_renewed.resize(rows, false);
-    }
-}
 
 /// What a pair answers when it is asked for its next touch.
 struct Answer {
