@@ -38,7 +38,7 @@ pub(crate) fn step(world: &mut World, time: f64) {
     motion::begin_flight(&mut world.bodies, law.gravity, time);
     world.broad_phase.find_pairs(&world.bodies, time);
     let parted = world.pairs.update(&world.bodies, &mut world.broad_phase);
-    world.rest.begin_step(&mut world.bodies, &world.pairs, parted);
+    world.rest.begin_step(&mut world.bodies, (&mut world.pairs, parted), law);
 
     let nearby = (&mut world.pairs, &mut world.rest);
     let mut events = Events::new(&mut world.bodies, &mut world.broad_phase, nearby, &mut world.agenda, law);

@@ -57,8 +57,13 @@ pub(crate) mod field {
     pub const RENEWED_FRICTION_B: usize = 52;
     /// 0 where both surfaces are round, 1 elsewhere: as one rolls over the other, it is the normal that turns.
     pub const FOLLOWS: usize = 55;
+    /// How much further the bodies have moved against each other since the contact was renewed than they may, m; negative as long as
+    /// they have not.
+    pub const STRAY: usize = 56;
+    /// Gap from which on the contact has left, m.
+    pub const PARTING: usize = 57;
     /// The first point's lines; each further point [`POINT_LINES`] further.
-    pub const POINT: usize = 56;
+    pub const POINT: usize = 58;
 
     /// Of a point: arm of `a` (x, y, and z of what turns with the body), then of `b`. Arms of both end at one place, also when
     /// the bodies have moved against each other.
@@ -148,6 +153,18 @@ impl Bundle {
 
     pub fn get(&self, lane: usize, field: usize) -> f32 {
         self.lines[field].0[lane]
+    }
+
+    /// Whether the bodies of a contact have moved too far against each other since it was renewed.
+    #[inline(always)]
+    pub fn has_strayed(&self, lane: usize) -> bool {
+        self.lines[field::STRAY].0[lane] > 0.0
+    }
+
+    /// Whether all its points are out of its reach.
+    #[inline(always)]
+    pub fn has_left(&self, lane: usize) -> bool {
+        self.lines[field::GAP].0[lane] > self.lines[field::PARTING].0[lane]
     }
 
     fn count_points(&mut self) {

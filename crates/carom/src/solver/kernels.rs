@@ -3,23 +3,32 @@
 
 use super::bundle::{Bundle, field};
 use super::contact::{begin, measure, resume, sweep, sweep_normals, work};
-use super::lanes::{Kernel, Lanes, Line, Row};
+use super::lanes::{Kernel, LANES, Lanes, Line, Row};
 use super::rows::SharedRows;
 
-/// [`measure`].
+/// [`measure`]; comes to the indices of the bundles with a contact that somebody has to look at.
 pub(crate) struct Measure<'a> {
     pub bundles: &'a mut [Bundle],
     pub drifts: &'a [Row],
 }
 
 impl Kernel for Measure<'_> {
-    type Output = ();
+    type Output = Vec<usize>;
 
     #[inline(always)]
-    fn run<L: Lanes>(self) {
-        for bundle in self.bundles {
+    fn run<L: Lanes>(self) -> Vec<usize> {
+        let mut noted = Vec::new();
+        for (index, bundle) in self.bundles.iter_mut().enumerate() {
             measure::<L>(bundle, self.drifts);
+            let mut is_noted = false;
+            for lane in 0..LANES {
+                is_noted |= bundle.has_strayed(lane) | bundle.has_left(lane);
+            }
+            if is_noted {
+                noted.push(index);
+            }
         }
+        noted
     }
 }
 

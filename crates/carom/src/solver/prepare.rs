@@ -26,8 +26,10 @@ pub(crate) struct Terms {
     pub surface: Surface,
     /// Gap up to which two points count as touching, m.
     pub margin: f64,
-    /// Gap up to which contacts see to a point at all, m.
+    /// Gap up to which contacts see to a point, m; a pair parts when all of its are further.
     pub horizon: f64,
+    /// Whether they see to all points, however far they are.
+    pub is_pressed: bool,
 }
 
 /// Impulses that a contact starts from.
@@ -124,6 +126,9 @@ pub(crate) fn lane(
         put(at(field::SEPARATION), contact.separation);
     }
 
+    let separations = points.iter().map(|contact| contact.separation);
+    put(field::GAP, separations.clone().fold(f64::from(f32::MAX), f64::min));
+    put(field::WIDEST, separations.fold(f64::from(f32::MIN), f64::max));
     let arms = sides.map(|side| frame.inward(middle - side.center));
     put_vector(&mut put, field::FRICTION_ARM_A, arms[0]);
     put_vector(&mut put, field::FRICTION_ARM_B, arms[1]);
@@ -137,7 +142,8 @@ pub(crate) fn lane(
     put(field::TWIST, remembered.twist);
     put(field::STATIC_FRICTION, terms.surface.static_friction);
     put(field::DYNAMIC_FRICTION, terms.surface.dynamic_friction);
-    put(field::HORIZON, terms.horizon);
+    put(field::HORIZON, if terms.is_pressed { f64::from(f32::MAX) } else { terms.horizon });
+    put(field::PARTING, terms.horizon);
     put(field::ROUNDNESS, sides[0].roundness);
     put(field::ROUNDNESS + 1, sides[1].roundness);
     put(field::SHARE, share(sides));

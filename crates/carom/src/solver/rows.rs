@@ -14,7 +14,7 @@ use std::cell::UnsafeCell;
 pub(crate) struct Rows {
     /// Linear and angular velocity (m/s, rad/s), inverse mass, and whether anything can change them.
     pub velocities: Vec<Row>,
-    /// Translation (m) and turn `(x, y, z, w)` since the anchor.
+    /// Translation (m) and turn `(x, y, z, w)` since the anchor; and the body's [`LEASH`].
     pub drifts: Vec<Row>,
     /// Displacements that push overlaps out, laid out like velocities (m, rad).
     pub displacements: Vec<Row>,
@@ -30,6 +30,10 @@ pub(crate) struct Rows {
 }
 
 const UNTURNED: Row = Row([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0]);
+
+/// Which number of a drift tells how far (m) a body and another one may move against each other until their contacts are renewed; the
+/// larger one counts.
+pub(crate) const LEASH: usize = 7;
 
 impl Rows {
     pub fn new() -> Self {
@@ -136,19 +140,25 @@ impl Rows {
         if row != WORLD_ROW {
             let state = &bodies.states[row];
             self.anchors[row] = Pose::new(state.position, state.rotation);
-            self.drifts[row] = UNTURNED;
+            self.drifts[row].0[..LEASH].copy_from_slice(&UNTURNED.0[..LEASH]);
         }
     }
 
-    /// Reads how far a body is from its anchor; the larger of the distance as a share of `reach` and the sine of half the angle.
-    pub fn read_drift(&mut self, bodies: &Bodies, row: usize, reach: f64) -> f64 {
+    /// Sets how far (m) a body and another one may move against each other.
+    pub fn set_leash(&mut self, row: usize, leash: f64) {
+        self.drifts[row].0[LEASH] = leash as f32;
+    }
+
+    /// Reads how far a body is from its anchor: the distance, m, and the sine of half the angle, both squared.
+    pub fn read_drift(&mut self, bodies: &Bodies, row: usize) -> [f64; 2] {
         let (state, anchor) = (&bodies.states[row], &self.anchors[row]);
         let moved = state.position - anchor.position;
         let turn = state.rotation * anchor.rotation.conjugate();
         let (linear, turned) = (moved.as_vec3(), turn.as_quat());
-        self.drifts[row] = Row([linear.x, linear.y, linear.z, turned.x, turned.y, turned.z, turned.w, 0.0]);
+        let leash = self.drifts[row].0[LEASH];
+        self.drifts[row] = Row([linear.x, linear.y, linear.z, turned.x, turned.y, turned.z, turned.w, leash]);
         let sine = turn.x * turn.x + turn.y * turn.y + turn.z * turn.z;
-        (moved.length_squared() / (reach * reach)).max(sine).sqrt()
+        [moved.length_squared(), sine]
     }
 
     /// The drift of a body, as the kernels see it.

@@ -108,7 +108,7 @@ impl<'a> Events<'a> {
             if !is_due {
                 continue;
             }
-            if pair.rests && self.rest.is_closed(pair) {
+            if pair.rests && (pair.is_pressed || self.rest.is_closed(pair)) {
                 self.pairs[index].now.asked_until = span.from;
             } else {
                 due.push(index);
@@ -139,7 +139,8 @@ impl<'a> Events<'a> {
         let until = if is_held { span.until } else { self.law.step };
         let mut answer = Answer { until, separation: None, instant: None };
         let may_touch = if pair.rests {
-            self.rest.is_driven(self.bodies, pair, self.law, span)
+            !self.rest.presses(self.bodies, pair, self.law)
+                && self.rest.is_driven(self.bodies, pair, self.law, span)
         } else {
             pair.least_separation(self.bodies, until) <= pair.tolerance
         };

@@ -50,8 +50,16 @@ pub(crate) struct Rest {
     /// The pairs that rest, in the order in which they came to.
     resting: Vec<usize>,
     crowds: Crowds,
-    /// Whether each contact would bounce if it were struck faster.
-    bounces: Vec<bool>,
+    /// Whose each contact is.
+    owners: Vec<Owner>,
+}
+
+/// The pair that a contact belongs to.
+#[derive(Clone, Copy, Debug, Default)]
+struct Owner {
+    pair: usize,
+    /// Whether it would bounce if it were struck faster.
+    bounces: bool,
 }
 
 /// A stretch of a step.
@@ -69,7 +77,7 @@ impl Rest {
             rows: Rows::new(),
             resting: Vec::new(),
             crowds: Crowds::default(),
-            bounces: Vec::new(),
+            owners: Vec::new(),
         }
     }
 
@@ -79,12 +87,17 @@ impl Rest {
     }
 
     /// Starts a step with other pairs; those that have `parted` lose their contacts.
-    pub fn begin_step(&mut self, bodies: &mut Bodies, pairs: &Pairs, parted: Vec<Pair>) {
+    pub fn begin_step(&mut self, bodies: &mut Bodies, (pairs, parted): (&mut Pairs, Vec<Pair>), law: RestLaw) {
         self.rows.grow(bodies.states.len());
         parted.iter().for_each(|pair| self.drop_contacts(pair));
         self.resting.retain(|&index| pairs.rests(index));
         self.resting.sort_by_key(|&index| pairs[index].colliders);
         self.crowds.find(bodies, self.resting.iter().map(|&index| pairs[index].rows));
+        for &index in &self.resting {
+            if pairs[index].is_pressed != self.crowds.press(bodies, &pairs[index], law) {
+                pairs[index].is_outdated = true;
+            }
+        }
         let mut goes_on = true;
         while goes_on {
             goes_on = false;
@@ -154,7 +167,7 @@ impl Rest {
             if !self.rows.is_held(row) {
                 self.rows.anchor(bodies, row);
             }
-            self.rows.read_drift(bodies, row, 1.0);
+            self.rows.read_drift(bodies, row);
         }
         pairs[index].rests = true;
         self.renew(bodies, pairs, index, at);
@@ -163,31 +176,19 @@ impl Rest {
         }
     }
 
-    /// Lets go of pairs whose every point has left the reach of contacts.
-    fn let_part(&mut self, pairs: &mut Pairs) {
-        let resting = std::mem::take(&mut self.resting);
-        for &index in &resting {
-            let get = |support: &Support, field: usize| self.graph.get(support.contact, field);
-            let has_left = |support: &Support| get(support, field::GAP) > get(support, field::HORIZON);
-            let pair = &mut pairs[index];
-            if pair.supports.iter().all(has_left) {
-                self.end(pair);
-            }
-        }
-        self.resting = resting;
-        self.resting.retain(|&index| pairs[index].rests);
-    }
-
-    fn end(&mut self, pair: &mut Pair) {
+    /// Ends the rest of a pair; the touches to come are to be asked for.
+    fn end(&mut self, pairs: &mut Pairs, index: usize) {
+        let pair = &mut pairs[index];
         self.drop_contacts(pair);
         pair.rests = false;
         pair.supports.clear();
+        pairs.watch_over(index);
     }
 
     /// Hands a pair back to the impacts, if it rests.
     pub fn hand_back(&mut self, pairs: &mut Pairs, index: usize) {
         if pairs[index].rests {
-            self.end(&mut pairs[index]);
+            self.end(pairs, index);
             self.resting.retain(|&other| other != index);
         }
     }
@@ -214,9 +215,14 @@ impl Rest {
     /// their impulses at the instant; and for what bounces without loss, or bears no load (balls that just touch in a row).
     pub fn left_speed(&self, bodies: &Bodies, pair: &Pair, law: RestLaw) -> f64 {
         let restitution = pair.surface.restitution;
-        let is_left = self.crowds.has(pair.rows)
+        let is_left = self.crowds.has_either(pair.rows)
             && (restitution == 0.0 || (restitution < 1.0 && self.bears_load(bodies, pair, law)));
         if is_left { PRESSED * grain(bodies, pair) / law.substep } else { 0.0 }
+    }
+
+    /// Whether contacts see to a pair, if it rests, however it is pressed.
+    pub fn presses(&self, bodies: &Bodies, pair: &Pair, law: RestLaw) -> bool {
+        self.crowds.press(bodies, pair, law)
     }
 
     /// Whether contacts have pushed a pair with more than a trace of a body's weight.

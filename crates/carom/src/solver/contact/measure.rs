@@ -3,6 +3,7 @@
 use super::{Frame, angular, indices, line, linear, store, turning, vector};
 use crate::solver::bundle::{Bundle, POINTS, field};
 use crate::solver::lanes::{LANES, Lanes, Row, Vector};
+use crate::solver::rows::LEASH;
 
 /// How far the turn `(x, y, z, w)` since the anchor moves a point along the normal, per metre of its arm: `Rᵀn − n`, in the
 /// contact frame.
@@ -13,8 +14,8 @@ fn drift_of_arm<L: Lanes>(frame: &Frame<L>, row: &[L; 8]) -> Vector<L> {
     Vector::new(two * (x * z - w * y), two * (y * z + w * x), -two * (x * x + y * y))
 }
 
-/// Finds the separation of every point from the bodies' `drifts` since their anchors, and lets both arms end where impulses act
-/// now.
+/// Finds the separation of every point from the bodies' `drifts` since their anchors, how far they have strayed from each other,
+/// and lets both arms end where impulses act now.
 #[inline(always)]
 pub(crate) fn measure<L: Lanes>(bundle: &mut Bundle, drifts: &[Row]) {
     for part in 0..LANES / L::WIDTH {
@@ -42,6 +43,7 @@ pub(crate) fn measure<L: Lanes>(bundle: &mut Bundle, drifts: &[Row]) {
             widest = L::select_greater(real, L::splat(0.0), [widest.max(separation), widest]);
         }
         shift.friction(bundle, part);
+        (shift.way - drift_a[LEASH].max(drift_b[LEASH])).store(&mut bundle.lines[field::STRAY], part);
         widest.store(&mut bundle.lines[field::WIDEST], part);
         gap.store(&mut bundle.lines[field::GAP], part);
     }
@@ -64,6 +66,8 @@ fn twice_turn<L: Lanes>(frame: &Frame<L>, drift: &[L; 8]) -> Vector<L> {
 struct Shift<L> {
     /// `b` against `a`.
     moved: Vector<L>,
+    /// How far that is.
+    way: L,
     /// Turn of each body, rad.
     turn_a: Vector<L>,
     turn_b: Vector<L>,
@@ -90,6 +94,7 @@ impl<L: Lanes> Shift<L> {
         let round_b = radius_b.min(depth_a.max(zero)) * follows;
         Self {
             moved: moved.scaled(follows),
+            way: moved.dot(moved).sqrt(),
             tilted: Vector::new(
                 turn_b.y * round_a - turn_a.y * round_b,
                 turn_a.x * round_b - turn_b.x * round_a,

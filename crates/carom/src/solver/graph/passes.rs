@@ -3,10 +3,10 @@
 //! The colours' order is the same for everyone, and bundles of one colour have no movable body in common. So a pass comes to the same
 //! bits on any number of threads.
 
-use super::{Color, FIXED, Graph, KINDS, MOVING};
+use super::{Color, ContactId, FIXED, Graph, KINDS, MOVING};
 use crate::solver::bundle::Bundle;
 use crate::solver::kernels::{Begin, Measure, Sweep, SweepNormals};
-use crate::solver::lanes::{Machine, Row};
+use crate::solver::lanes::{LANES, Machine, Row};
 use crate::solver::rows::SharedRows;
 
 /// Bundles that are worth a thread's while: a sweep over so many takes some microseconds. A colour with less than twice as many
@@ -56,9 +56,26 @@ impl Graph {
         }
     }
 
-    /// Finds all separations from the bodies' drifts.
-    pub fn measure(&mut self, drifts: &[Row]) {
-        self.each_color(|machine, bundles| machine.run(Measure { bundles, drifts }));
+    /// Finds all separations from the bodies' drifts; comes to the contacts whose bodies have strayed too far from each other, or
+    /// that have left the reach of theirs.
+    pub fn measure(&mut self, drifts: &[Row]) -> Vec<ContactId> {
+        let machine = self.machine;
+        let mut noted = Vec::new();
+        for color in self.order() {
+            let Color { bundles, contacts, .. } = &mut self.colors[color];
+            let stretches = self.pool.chunks(bundles, GRAIN, |first, bundles| {
+                (first, machine.run(Measure { bundles, drifts }))
+            });
+            for (first, found) in stretches {
+                for index in found.into_iter().map(|index| first + index) {
+                    let bundle = &bundles[index];
+                    let lanes = contacts[index * LANES..].iter().take(LANES).enumerate();
+                    let noteworthy = lanes.filter(|&(lane, _)| bundle.has_strayed(lane) || bundle.has_left(lane));
+                    noted.extend(noteworthy.map(|(_, &contact)| ContactId(contact)));
+                }
+            }
+        }
+        noted
     }
 
     /// Starts a substep from the velocities `before`, and lets the impulses of the last one act on the others; margin (m), rate (1/s).

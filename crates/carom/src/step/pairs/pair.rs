@@ -21,6 +21,10 @@ pub(crate) struct Pair {
     /// Whether the pair rests: it has supports then.
     pub rests: bool,
     pub supports: Vec<Support>,
+    /// Whether these see to it however it is pressed, so that nobody has to ask when a point of it strikes; and whether that is
+    /// no longer so, or should be.
+    pub is_pressed: bool,
+    pub is_outdated: bool,
     /// A separation that the two had, plus how far their bodies had moved by then (m): they are at least this less
     /// their present [`Pair::path`] apart.
     clearance: f64,
@@ -96,6 +100,8 @@ impl Pair {
             sensor: a.sensor || b.sensor,
             rests: false,
             supports: Vec::new(),
+            is_pressed: false,
+            is_outdated: false,
             clearance: f64::NEG_INFINITY,
             now: Present::NOTHING,
             is_changed: false,
@@ -125,10 +131,15 @@ impl Pair {
 
     /// Whether the two could come within `margin` of each other, or touch, before their bodies' ways exceed `limits`
     /// (m, rad).
-    pub(super) fn could_meet(&self, limits: [(f64, f64); 2], margin: f64) -> bool {
+    fn could_meet(&self, limits: [(f64, f64); 2], margin: f64) -> bool {
         let path = |side: usize| limits[side].0 + limits[side].1 * self.spin_reach[side];
         let left = self.clearance - (path(0) + path(1));
         left <= margin.max(self.tolerance) || left.is_nan()
+    }
+
+    /// Whether somebody has to look at it in every substep, while its bodies' ways are within their `limits`.
+    pub(super) fn needs_watching(&self, limits: [(f64, f64); 2], margin: f64) -> bool {
+        if self.rests { !self.is_pressed } else { self.could_meet(limits, margin) }
     }
 
     /// The same, if the two are `separation` apart (m) at an earlier time.

@@ -63,7 +63,7 @@ impl Pairs {
             let Some(pair) = there.filter(|it| it.colliders == entry.colliders && it.is_watched) else {
                 return false;
             };
-            pair.is_watched = pair.rests || pair.could_meet(pair.rows.map(|row| limits[row]), margin);
+            pair.is_watched = pair.needs_watching(pair.rows.map(|row| limits[row]), margin);
             pair.is_watched
         });
     }
@@ -84,7 +84,7 @@ impl Pairs {
                 let entry = self.of_row[row][number];
                 let Some(pair) = &self.list[entry.index as usize] else { continue };
                 let limits = pair.rows.map(|row| self.watch.limits[row]);
-                if pair.rests || pair.could_meet(limits, self.watch.margin) {
+                if pair.needs_watching(limits, self.watch.margin) {
                     self.watch(entry);
                 }
             }
@@ -92,11 +92,20 @@ impl Pairs {
         // Whoever was asked out of turn may be due again.
         while let Some(&index) = self.changed.get(self.watch.seen) {
             self.watch.seen += 1;
-            if let Some(pair) = &self.list[index as usize] {
-                self.watch(Entry { colliders: pair.colliders, index });
+            if self.list[index as usize].is_some() {
+                self.watch_over(index as usize);
             }
         }
         self.join();
+    }
+
+    /// Has a pair looked at in every substep, unless its contacts see to it.
+    pub fn watch_over(&mut self, index: usize) {
+        let pair = &self[index];
+        if !(pair.rests && pair.is_pressed) {
+            let colliders = pair.colliders;
+            self.watch(Entry { colliders, index: index as u32 });
+        }
     }
 
     pub(super) fn watch(&mut self, entry: Entry) {

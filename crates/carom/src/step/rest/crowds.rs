@@ -1,9 +1,22 @@
 //! Where many bodies rest against each other.
+//!
+//! There everything touches everything, and each blow presses hundreds of contacts a little. What touches for the first time strikes at
+//! its own instant, as anywhere else. What rests already and does not bounce has nothing that an instant could tell: it is
+//! stopped. So a crowd's contacts see to all of it, however it is pressed, at the end of the substep.
 
+use super::grain;
 use crate::bodies::{Bodies, WORLD_ROW};
+use crate::impacts::time_of_impact::RestLaw;
+use crate::step::pairs::Pair;
 
 /// More bodies than this, resting against each other, are a crowd.
-const CROWD: u32 = 32;
+const CROWD: u32 = 12;
+
+/// A pair whose points come nearer in a substep than this share of the smaller body's reach is no longer left to contacts.
+const AT_A_STRETCH: f64 = 0.02;
+
+/// Gap that contacts of a crowd see to however slowly its bodies move, as a share of the smaller reach.
+const AT_HAND: f64 = 0.1;
 
 /// The bodies in disjoint sets of those that rest against each other.
 #[derive(Default)]
@@ -41,9 +54,34 @@ impl Crowds {
         row
     }
 
-    /// Whether one of two rows is in a crowd.
-    pub fn has(&self, rows: [usize; 2]) -> bool {
-        let size = |row: usize| self.leaders.get(row).map_or(0, |&leader| self.sizes[leader as usize]);
-        rows.into_iter().any(|row| size(row) > CROWD)
+    /// Whether the body of a row is in a crowd.
+    pub fn has(&self, row: usize) -> bool {
+        self.leaders.get(row).is_some_and(|&leader| self.sizes[leader as usize] > CROWD)
     }
+
+    /// Whether one of two bodies is.
+    pub fn has_either(&self, rows: [usize; 2]) -> bool {
+        rows.into_iter().any(|row| self.has(row))
+    }
+
+    /// Whether contacts see to a pair that rests, however it is pressed.
+    pub fn press(&self, bodies: &Bodies, pair: &Pair, law: RestLaw) -> bool {
+        pair.surface.restitution == 0.0
+            && self.has_either(pair.rows)
+            && approach(bodies, pair, law.substep) <= AT_A_STRETCH * grain(bodies, pair)
+    }
+}
+
+/// Gap (m) up to which contacts of a crowd see to a pair's points when they are looked at with so much (s) of the step `left`.
+pub(super) fn reach_in_crowd(bodies: &Bodies, pair: &Pair, left: f64) -> f64 {
+    (AT_HAND * grain(bodies, pair)).max(approach(bodies, pair, left))
+}
+
+/// How much nearer to each other the points of two bodies can come within `time` (s) on their present paths, m.
+fn approach(bodies: &Bodies, pair: &Pair, time: f64) -> f64 {
+    let [a, b] = pair.rows;
+    let velocity = bodies.states[b].velocity - bodies.states[a].velocity;
+    let acceleration = bodies.influences[b].acceleration - bodies.influences[a].acceleration;
+    let turn = |side: usize| bodies.paces[pair.rows[side]].1 * pair.spin_reach[side];
+    time * (velocity.length() + turn(0) + turn(1) + 0.5 * time * acceleration.length())
 }

@@ -94,7 +94,7 @@ impl Rest {
             set_pace(bodies, row, span.until);
         }
         if let Some(journal) = &mut bodies.journal {
-            let bounces = wrenches.iter().map(|wrench| self.bounces[wrench.contact.index()]).collect();
+            let bounces = wrenches.iter().map(|wrench| self.owners[wrench.contact.index()].bounces).collect();
             journal.exerted = Some(Exerted { wrenches, bounces, centers, captures, time: substep });
         }
     }

@@ -43,8 +43,6 @@ impl Rest {
         settle(bodies);
         let mut freed = Vec::new();
         self.renew_moved(bodies, pairs, &held, (law, span));
-        self.graph.measure(&self.rows.drifts);
-        self.let_part(pairs);
         for row in held.into_iter().filter(|&row| !self.rows.is_held(row)) {
             if !bodies.is_asleep(row) {
                 bodies.influences[row] = free_influence(bodies, row, law.gravity);
@@ -75,13 +73,15 @@ impl Rest {
             is_steady[row] = sudden <= STEADY * gain[0].length() || !is_free(bodies, row);
         }
         self.graph.in_whole_islands(&mut is_steady);
+        let wrenches = self.graph.wrenches(&self.rows.velocities);
+        let mut is_pushed = vec![false; bodies.states.len()];
+        wrenches.iter().flat_map(|wrench| wrench.rows).for_each(|row| is_pushed[row] = true);
         let held: Vec<Held> = rows
             .iter()
             .zip(gains)
             .filter(|(row, _)| is_free(bodies, **row))
-            .map(|(&row, gain)| Held { row, gain, steady: is_steady[row], rough: is_rough[row] })
+            .map(|(&row, gain)| Held { row, gain, steady: is_steady[row] || !is_pushed[row], rough: is_rough[row] })
             .collect();
-        let wrenches = self.graph.wrenches(&self.rows.velocities);
         self.give(bodies, wrenches, &held, (law, span));
         rows
     }

@@ -17,7 +17,7 @@ impl Rest {
     pub fn push_out(&mut self, bodies: &mut Bodies, law: RestLaw) {
         let held = self.rows.held().to_vec();
         for &row in &held {
-            self.rows.read_drift(bodies, row, 1.0);
+            self.rows.read_drift(bodies, row);
             let moves = bodies.constants[row].is_movable() && !bodies.is_asleep(row);
             let inverse_mass = if moves { bodies.constants[row].inverse_mass as f32 } else { 0.0 };
             let mut still = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, inverse_mass, 0.0];

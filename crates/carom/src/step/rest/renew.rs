@@ -4,8 +4,9 @@
 //! it had when they were last renewed. All of them take its inertia as it was then: large impulses that cancel must do so in the
 //! angular velocity too. Impulses go over from the old contacts to the new ones (`remember.rs`).
 
+use super::crowds::reach_in_crowd;
 use super::remember::remembered;
-use super::{Rest, Span, horizon};
+use super::{Owner, Rest, Span, horizon};
 use crate::bodies::{Bodies, ColliderRow};
 use crate::collide::Manifold;
 use crate::impacts::time_of_impact::{Approach, RestLaw};
@@ -17,11 +18,21 @@ use crate::step::pairs::{Pairs, Support};
 /// Motion of a body, as a share of its smallest collider's reach or in radians, after which its contacts are renewed.
 const DRIFT: f64 = 5e-3;
 
+/// In a crowd what counts is how far bodies move against each other; so far they may move together. What a fast body does within a step
+/// may add up before its contacts are renewed, to so much at most: they are looked at closely again as it comes to rest.
+const TOGETHER: f64 = 0.5;
+const CROWD_DRIFT: f64 = 3e-2;
+
 /// So many pairs looked at are worth sharing out.
 const LOOKS: usize = 16;
 
-/// What a pair's contacts are to be: each manifold, and its numbers.
-type View = Vec<(Manifold, Lane)>;
+/// What a pair's contacts are to be.
+struct View {
+    /// Each manifold, and its numbers.
+    contacts: Vec<(Manifold, Lane)>,
+    /// Whether they see to it however it is pressed.
+    is_pressed: bool,
+}
 
 impl Rest {
     /// Looks at a pair closely: new geometry, old impulses. A pair that is out of reach rests no more.
@@ -44,16 +55,22 @@ impl Rest {
         let [a, b] = approach.colliders();
         let margin = law.contact_margin();
         let grain = a.reach.min(b.reach);
-        let way = |side: usize| {
-            let (linear, angular) = bodies.paces[pair.rows[side]];
-            linear + angular * pair.spin_reach[side]
+        let is_pressed = self.crowds.press(bodies, pair, law);
+        let reach = if is_pressed {
+            margin + reach_in_crowd(bodies, pair, law.step - span.from)
+        } else {
+            let way = |side: usize| {
+                let (linear, angular) = bodies.paces[pair.rows[side]];
+                linear + angular * pair.spin_reach[side]
+            };
+            let ahead = ((way(0) + way(1)) * (law.step - span.from)).min(0.2 * grain);
+            margin + 0.01 * grain + ahead
         };
-        let ahead = ((way(0) + way(1)) * (law.step - span.from)).min(0.2 * grain);
         let mut manifolds = Vec::new();
-        approach.manifolds(pairs, span.from, margin + 0.01 * grain + ahead, &mut manifolds);
+        approach.manifolds(pairs, span.from, reach, &mut manifolds);
         manifolds.retain(|manifold| !manifold.points().is_empty());
 
-        let terms = Terms { surface: pair.surface, margin, horizon: horizon(pair, grain, law) };
+        let terms = Terms { surface: pair.surface, margin, horizon: horizon(pair, grain, law), is_pressed };
         let centers = [a, b].map(|collider| bodies.center_pose(collider).position);
         let past: Vec<_> = pair.supports.iter().map(|support| self.past(support, centers)).collect();
         let remembered = remembered(&past, &manifolds, margin);
@@ -63,7 +80,7 @@ impl Rest {
             let lane = lane(normal, manifold.points(), &sides, &terms, &remembered);
             (manifold, lane)
         };
-        Some(manifolds.into_iter().zip(remembered).map(lane).collect())
+        Some(View { contacts: manifolds.into_iter().zip(remembered).map(lane).collect(), is_pressed })
     }
 
     /// A body as a contact sees it that touches one of its colliders at a point, where this normal points outward.
@@ -91,7 +108,8 @@ impl Rest {
         let old = std::mem::take(&mut pair.supports);
         let rows = pair.rows.map(|row| row as u32);
         let movable = pair.rows.map(|row| bodies.constants[row].is_movable());
-        for (number, (manifold, lane)) in view.iter().enumerate() {
+        (pair.is_pressed, pair.is_outdated) = (view.is_pressed, false);
+        for (number, (manifold, lane)) in view.contacts.iter().enumerate() {
             let contact = match old.get(number) {
                 Some(support) => {
                     self.graph.write(support.contact, lane);
@@ -102,41 +120,73 @@ impl Rest {
                     self.graph.insert(rows, movable, lane)
                 }
             };
-            self.bounces.resize(self.bounces.len().max(contact.index() + 1), false);
-            self.bounces[contact.index()] = pair.surface.restitution > 0.0;
+            self.owners.resize(self.owners.len().max(contact.index() + 1), Owner::default());
+            self.owners[contact.index()] = Owner { pair: index, bounces: pair.surface.restitution > 0.0 };
             pair.supports.push(Support::new(contact, manifold));
         }
-        for support in old.iter().skip(view.len()) {
+        for support in old.iter().skip(view.contacts.len()) {
             self.release(support);
         }
         pair.rests = !pair.supports.is_empty();
+        pairs.watch_over(index);
     }
 
-    /// Renews the contacts of the bodies that have moved too far from their anchors.
+    /// Renews the contacts of the bodies that have moved too far from their anchors; then measures all, and renews those whose bodies
+    /// have moved too far against each other.
     pub(super) fn renew_moved(
         &mut self,
         bodies: &mut Bodies,
         pairs: &mut Pairs,
         held: &[usize],
-        (law, span): (RestLaw, Span),
+        at: (RestLaw, Span),
     ) {
         let mut has_moved = vec![false; bodies.states.len()];
         for &row in held {
-            if self.rows.read_drift(bodies, row, bodies.grains[row]) > DRIFT {
+            let [way, turn] = self.rows.read_drift(bodies, row);
+            let [most, most_turn] = self.limits(bodies, row, at.0.step);
+            if way > most * most || turn > most_turn * most_turn {
                 has_moved[row] = true;
                 self.rows.anchor(bodies, row);
             }
         }
         let stale =
-            |&index: &usize| pairs[index].rests && pairs[index].rows.into_iter().any(|row| has_moved[row]);
+            |&index: &usize| {
+                let pair = &pairs[index];
+                pair.rests && (pair.is_outdated || pair.rows.into_iter().any(|row| has_moved[row]))
+            };
         let stale: Vec<usize> = self.resting.iter().copied().filter(stale).collect();
-        let views =
-            self.graph.pool().map(&stale, LOOKS, |&index| self.look(bodies, pairs, index, (law, span)));
+        self.renew_all(bodies, pairs, stale, at);
+        let noted = self.graph.measure(&self.rows.drifts);
+        let mut noted: Vec<usize> = noted.into_iter().map(|contact| self.owners[contact.index()].pair).collect();
+        noted.sort_by_key(|&index| pairs[index].colliders);
+        noted.dedup();
+        let has_left = |support: &Support| self.graph.has_left(support.contact);
+        let (gone, strayed): (Vec<usize>, Vec<usize>) =
+            noted.into_iter().partition(|&index| pairs[index].supports.iter().all(has_left));
+        gone.into_iter().for_each(|index| self.end(pairs, index));
+        self.renew_all(bodies, pairs, strayed, at);
+        self.resting.retain(|&index| pairs[index].rests);
+    }
+
+    /// How far a body may be from its anchor, m, and the sine of half the angle; sets its leash.
+    fn limits(&mut self, bodies: &Bodies, row: usize, step: f64) -> [f64; 2] {
+        let grain = bodies.grains[row];
+        if !self.crowds.has(row) {
+            self.rows.set_leash(row, if bodies.constants[row].is_movable() { f64::INFINITY } else { 0.0 });
+            return [DRIFT * grain, DRIFT];
+        }
+        let (speed, spin) = bodies.paces[row];
+        let most = |share: f64| share.clamp(DRIFT, CROWD_DRIFT);
+        self.rows.set_leash(row, most(speed * step / grain) * grain);
+        [TOGETHER * grain, most(0.5 * spin * step)]
+    }
+
+    fn renew_all(&mut self, bodies: &Bodies, pairs: &mut Pairs, stale: Vec<usize>, at: (RestLaw, Span)) {
+        let views = self.graph.pool().map(&stale, LOOKS, |&index| self.look(bodies, pairs, index, at));
         for (index, view) in stale.into_iter().zip(views) {
             if let Some(view) = view {
                 self.adopt_view(bodies, pairs, index, &view);
             }
         }
-        self.resting.retain(|&index| pairs[index].rests);
     }
 }
