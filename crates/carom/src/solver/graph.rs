@@ -145,8 +145,9 @@ impl Graph {
 
     /// Whether all points of a contact are out of its reach.
     pub fn has_left(&self, id: ContactId) -> bool {
-        self.place(id)
-            .is_some_and(|place| self.colors[place.color].bundles[place.lane / LANES].has_left(place.lane % LANES))
+        self.place(id).is_some_and(|place| {
+            self.colors[place.color].bundles[place.lane / LANES].has_left(place.lane % LANES)
+        })
     }
 
     /// The rows of a contact's bodies.

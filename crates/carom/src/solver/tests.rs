@@ -160,7 +160,7 @@ impl Problem {
         let sides = touch.bodies.map(|body| side(&self.movers[body]));
         let [static_friction, dynamic_friction] = touch.friction;
         let surface = Surface { restitution: 0.0, static_friction, dynamic_friction };
-        let terms = Terms { surface, margin: MARGIN, horizon: 1.0 };
+        let terms = Terms { surface, margin: MARGIN, horizon: 1.0, is_pressed: false };
         lane(touch.normal, &points, &sides, &terms, &Remembered::default())
     }
 

@@ -87,7 +87,12 @@ impl Rest {
     }
 
     /// Starts a step with other pairs; those that have `parted` lose their contacts.
-    pub fn begin_step(&mut self, bodies: &mut Bodies, (pairs, parted): (&mut Pairs, Vec<Pair>), law: RestLaw) {
+    pub fn begin_step(
+        &mut self,
+        bodies: &mut Bodies,
+        (pairs, parted): (&mut Pairs, Vec<Pair>),
+        law: RestLaw,
+    ) {
         self.rows.grow(bodies.states.len());
         parted.iter().for_each(|pair| self.drop_contacts(pair));
         self.resting.retain(|&index| pairs.rests(index));

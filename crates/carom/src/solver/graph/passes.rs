@@ -63,14 +63,15 @@ impl Graph {
         let mut noted = Vec::new();
         for color in self.order() {
             let Color { bundles, contacts, .. } = &mut self.colors[color];
-            let stretches = self.pool.chunks(bundles, GRAIN, |first, bundles| {
-                (first, machine.run(Measure { bundles, drifts }))
-            });
+            let stretches = self
+                .pool
+                .chunks(bundles, GRAIN, |first, bundles| (first, machine.run(Measure { bundles, drifts })));
             for (first, found) in stretches {
                 for index in found.into_iter().map(|index| first + index) {
                     let bundle = &bundles[index];
                     let lanes = contacts[index * LANES..].iter().take(LANES).enumerate();
-                    let noteworthy = lanes.filter(|&(lane, _)| bundle.has_strayed(lane) || bundle.has_left(lane));
+                    let noteworthy =
+                        lanes.filter(|&(lane, _)| bundle.has_strayed(lane) || bundle.has_left(lane));
                     noted.extend(noteworthy.map(|(_, &contact)| ContactId(contact)));
                 }
             }

@@ -59,7 +59,7 @@ impl Case {
             }
         });
         let surface = Surface { restitution: 0.0, static_friction: 0.0, dynamic_friction: 0.0 };
-        let terms = Terms { surface, margin: MARGIN, horizon: 1.0 };
+        let terms = Terms { surface, margin: MARGIN, horizon: 1.0, is_pressed: false };
         let points = [at(self.point, self.separation)];
         let mut bundle = Bundle::EMPTY;
         bundle.write(0, [1, 2], &lane(self.normal, &points, &sides, &terms, &Remembered::default()));

@@ -4,6 +4,7 @@ use super::{Entry, Pairs};
 use crate::bodies::{Bodies, ColliderRow, WORLD_ROW};
 use crate::collide::separation;
 use crate::filter::{Accepts, Filter, Groups};
+use crate::impacts::time_of_impact::RestLaw;
 use crate::math::DVec3;
 use crate::solver::tests::Random;
 use crate::step::motion::begin_flight;
@@ -30,7 +31,9 @@ impl Pairs {
             let entry = Entry { colliders: pair.colliders, index: index as u32 };
             let is_listed = self.watch.has(entry);
             assert_eq!(pair.is_watched, is_listed, "{:?} is watched", pair.colliders);
-            if !pair.is_watched {
+            if pair.rests {
+                assert!(pair.is_watched || pair.is_pressed, "{:?} rests and is not watched", pair.colliders);
+            } else if !pair.is_watched {
                 let apart = gap(bodies, pair.colliders);
                 assert!(apart > self.watch.margin(), "{:?}: {apart} m apart and not watched", pair.colliders);
             }
@@ -49,7 +52,8 @@ fn look(world: &mut World) {
     begin_flight(&mut world.bodies, world.settings.gravity, STEP);
     world.broad_phase.find_pairs(&world.bodies, STEP);
     let parted = world.pairs.update(&world.bodies, &mut world.broad_phase);
-    world.rest.begin_step(&mut world.bodies, &world.pairs, parted);
+    let law = RestLaw { gravity: world.settings.gravity, substep: 0.25 * STEP, step: STEP };
+    world.rest.begin_step(&mut world.bodies, (&mut world.pairs, parted), law);
     world.pairs.begin_watch(&world.bodies, (STEP, 1e-3));
 }
 

@@ -10,7 +10,7 @@ use crate::impacts::time_of_impact::RestLaw;
 use crate::step::pairs::Pair;
 
 /// More bodies than this, resting against each other, are a crowd.
-const CROWD: u32 = 12;
+const CROWD: u32 = 32;
 
 /// A pair whose points come nearer in a substep than this share of the smaller body's reach is no longer left to contacts.
 const AT_A_STRETCH: f64 = 0.02;
@@ -84,4 +84,67 @@ fn approach(bodies: &Bodies, pair: &Pair, time: f64) -> f64 {
     let acceleration = bodies.influences[b].acceleration - bodies.influences[a].acceleration;
     let turn = |side: usize| bodies.paces[pair.rows[side]].1 * pair.spin_reach[side];
     time * (velocity.length() + turn(0) + turn(1) + 0.5 * time * acceleration.length())
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::impacts::time_of_impact::{Approach, RestLaw};
+    use crate::math::DVec3;
+    use crate::solver::bundle::field;
+    use crate::solver::tests::Random;
+    use crate::{Body, Shape, World};
+
+    const STEP: f64 = 1.0 / 60.0;
+
+    /// Sixty lumps, boxes and wedges, poured onto a heap.
+    fn heap(random: &mut Random) -> World {
+        let mut world = World::new();
+        world.add(Body::fixed().with(Shape::plane()));
+        for number in 0..60 {
+            let size = |random: &mut Random| random.range(0.3, 0.6);
+            let (x, y, z) = (size(random), size(random), size(random));
+            let wedge = [[0.0, 0.0, 0.0], [x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z], [x, 0.0, z]];
+            let shape = match number % 3 {
+                0 => Shape::cuboid(x, y, z),
+                1 => Shape::hull(&wedge.map(DVec3::from_array)).expect("a wedge"),
+                _ => Shape::cylinder(x, 0.4 * y),
+            };
+            let place =
+                DVec3::new(random.range(-0.8, 0.8), 0.6 + 0.3 * f64::from(number), random.range(-0.8, 0.8));
+            let turn = random.rotation().as_quat();
+            world.add(Body::dynamic().with(shape).at(place.x, place.y, place.z).rotated(turn).friction(0.8));
+        }
+        world
+    }
+
+    #[test]
+    fn nothing_in_a_crowd_that_has_come_to_rest_is_held_by_what_it_does_not_touch() {
+        for seed in 0..4 {
+            let mut world = heap(&mut Random(41 + seed));
+            let law = RestLaw { gravity: world.settings.gravity, substep: 0.25 * STEP, step: STEP };
+            for step in 0..300 {
+                world.step_validated(STEP);
+                if step < 240 {
+                    continue;
+                }
+                let (bodies, rest, pairs) = (&world.bodies, &world.rest, &world.pairs);
+                for pair in rest.resting.iter().map(|&index| &pairs[index]) {
+                    let pushes = |point: usize, contact| {
+                        rest.graph.get(contact, field::of_point(point, field::IMPULSE)) > 0.0
+                    };
+                    let is_pressed = pair
+                        .supports
+                        .iter()
+                        .any(|support| (0..4).any(|point| pushes(point, support.contact)));
+                    let is_slow =
+                        pair.rows.into_iter().all(|row| bodies.states[row].velocity.length() < 1e-3);
+                    if is_pressed && is_slow {
+                        let approach = Approach::of(bodies, pair.colliders, law).expect("both are there");
+                        let gap = approach.separation(STEP);
+                        assert!(gap < 3e-4, "held over a gap of {gap} m in step {step}, heap {seed}");
+                    }
+                }
+            }
+        }
+    }
 }

@@ -80,7 +80,12 @@ impl Rest {
             .iter()
             .zip(gains)
             .filter(|(row, _)| is_free(bodies, **row))
-            .map(|(&row, gain)| Held { row, gain, steady: is_steady[row] || !is_pushed[row], rough: is_rough[row] })
+            .map(|(&row, gain)| Held {
+                row,
+                gain,
+                steady: is_steady[row] || !is_pushed[row],
+                rough: is_rough[row],
+            })
             .collect();
         self.give(bodies, wrenches, &held, (law, span));
         rows

@@ -149,15 +149,15 @@ impl Rest {
                 self.rows.anchor(bodies, row);
             }
         }
-        let stale =
-            |&index: &usize| {
-                let pair = &pairs[index];
-                pair.rests && (pair.is_outdated || pair.rows.into_iter().any(|row| has_moved[row]))
-            };
+        let stale = |&index: &usize| {
+            let pair = &pairs[index];
+            pair.rests && (pair.is_outdated || pair.rows.into_iter().any(|row| has_moved[row]))
+        };
         let stale: Vec<usize> = self.resting.iter().copied().filter(stale).collect();
         self.renew_all(bodies, pairs, stale, at);
         let noted = self.graph.measure(&self.rows.drifts);
-        let mut noted: Vec<usize> = noted.into_iter().map(|contact| self.owners[contact.index()].pair).collect();
+        let mut noted: Vec<usize> =
+            noted.into_iter().map(|contact| self.owners[contact.index()].pair).collect();
         noted.sort_by_key(|&index| pairs[index].colliders);
         noted.dedup();
         let has_left = |support: &Support| self.graph.has_left(support.contact);
