@@ -9,11 +9,23 @@ use crate::report::Feature;
 pub(super) struct Candidates {
     points: Vec<ContactPoint>,
     margin: f64,
+    /// Room for an outline before and after a cut.
+    cuts: [Vec<Cut>; 2],
 }
 
 impl Candidates {
     pub fn new(margin: f64) -> Self {
-        Self { points: Vec::new(), margin }
+        Self { points: Vec::new(), margin, cuts: [Vec::new(), Vec::new()] }
+    }
+
+    /// Room for the points of another manifold within the same margin.
+    pub fn clear(&mut self) {
+        self.points.clear();
+    }
+
+    /// m
+    pub fn margin(&self) -> f64 {
+        self.margin
     }
 
     pub fn push(&mut self, point: ContactPoint) {
@@ -94,6 +106,7 @@ pub(super) fn contacts(a: &Convex, b: &Convex, b_in_a: &Pose, normal: DVec3, out
         let across = any_tangent(normal);
         (across, normal.cross(across))
     };
+    let [mut shape, mut left] = std::mem::take(&mut out.cuts);
     let mut offer = |x: f64, y: f64, heights: (f64, f64), features: (Feature, Feature)| {
         let (low, high) = (heights.0 + a.radius, heights.1 - b.radius);
         let point = across * x + up * y + normal * (0.5 * (low + high));
@@ -114,16 +127,18 @@ pub(super) fn contacts(a: &Convex, b: &Convex, b_in_a: &Pose, normal: DVec3, out
     let b_cuts = corners_b.len() > 2;
     let (subject, knife) = if b_cuts { (&side_a, &side_b) } else { (&side_b, &side_a) };
     let Some(plane) = Knife::new(knife.corners(), flat) else { return };
-    let mut shape: Vec<Cut> = Vec::with_capacity(2 * CORNERS + 2);
+    shape.clear();
     for corner in subject.corners() {
         let (x, y, height) = flat(corner);
         let onward = Side::Own(corner.edge);
         shape.push(Cut { x, y, height, own: corner.vertex, other: knife.face, onward });
     }
     for k in 0..knife.corners().len() {
-        shape = plane.cut(&shape, k, knife.corners(), subject.face);
+        if plane.cut((&shape, &mut left), k, knife.corners(), subject.face) {
+            std::mem::swap(&mut shape, &mut left);
+        }
     }
-    for cut in shape {
+    for cut in &shape {
         let height = plane.height(cut.x, cut.y);
         if b_cuts {
             offer(cut.x, cut.y, (cut.height, height), (cut.own, cut.other));
@@ -131,11 +146,13 @@ pub(super) fn contacts(a: &Convex, b: &Convex, b_in_a: &Pose, normal: DVec3, out
             offer(cut.x, cut.y, (height, cut.height), (cut.other, cut.own));
         }
     }
+    out.cuts = [shape, left];
 }
 
 /// The outline that cuts: its sides in the plane across the normal, its own plane in space.
 struct Knife {
-    places: Vec<(f64, f64)>,
+    places: [(f64, f64); CORNERS],
+    count: usize,
     /// 1 if the sides run anticlockwise seen against the normal, else −1.
     turn: f64,
     /// height = slope·(x, y) + offset.
@@ -151,42 +168,53 @@ impl Knife {
         if corners.len() < 3 {
             return None;
         }
-        let points: Vec<(f64, f64, f64)> = corners.iter().map(flat).collect();
+        let count = corners.len();
+        let mut points = [(0.0, 0.0, 0.0); CORNERS];
+        points.iter_mut().zip(corners).for_each(|(point, corner)| *point = flat(corner));
         let origin = points[0];
         let from_origin = |k: usize| {
             let (x, y, height) = points[k];
             DVec3::new(x - origin.0, y - origin.1, height - origin.2)
         };
         // Twice the area, as a vector (Newell).
-        let area: DVec3 = (1..points.len() - 1).map(|k| from_origin(k).cross(from_origin(k + 1))).sum();
+        let area: DVec3 = (1..count - 1).map(|k| from_origin(k).cross(from_origin(k + 1))).sum();
         if area.z.abs() <= 0.05 * area.length() {
             return None;
         }
         let slope = (-area.x / area.z, -area.y / area.z);
         let offset = origin.2 - slope.0 * origin.0 - slope.1 * origin.1;
-        let extent = (1..points.len()).map(|k| from_origin(k).length()).fold(0.0, f64::max);
-        let places = points.iter().map(|&(x, y, _)| (x, y)).collect();
-        Some(Self { places, turn: area.z.signum(), slope, offset, tolerance: 1e-9 * extent })
+        let extent = (1..count).map(|k| from_origin(k).length()).fold(0.0, f64::max);
+        let places = points.map(|(x, y, _)| (x, y));
+        Some(Self { places, count, turn: area.z.signum(), slope, offset, tolerance: 1e-9 * extent })
     }
 
     fn height(&self, x: f64, y: f64) -> f64 {
         self.slope.0 * x + self.slope.1 * y + self.offset
     }
 
-    /// What of `shape` lies inside the knife's side `k`.
-    fn cut(&self, shape: &[Cut], k: usize, corners: &[Corner], face: Feature) -> Vec<Cut> {
-        let (from, to) = (self.places[k], self.places[(k + 1) % self.places.len()]);
+    /// Leaves what of `shape` lies inside the knife's side `k`; false if that is all of it.
+    fn cut(
+        &self,
+        (shape, left): (&[Cut], &mut Vec<Cut>),
+        k: usize,
+        corners: &[Corner],
+        face: Feature,
+    ) -> bool {
+        let (from, to) = (self.places[k], self.places[(k + 1) % self.count]);
         let (dx, dy) = (to.0 - from.0, to.1 - from.1);
         let length = (dx * dx + dy * dy).sqrt();
         if length == 0.0 {
-            return shape.to_vec();
+            return false;
         }
         let inside = |cut: &Cut| self.turn * (dx * (cut.y - from.1) - dy * (cut.x - from.0)) / length;
-        let mut left = Vec::with_capacity(shape.len() + 1);
+        let keeps = |depth: f64| depth >= -self.tolerance;
+        if shape.iter().all(|cut| keeps(inside(cut))) {
+            return false;
+        }
+        left.clear();
         for (i, here) in shape.iter().enumerate() {
-            let next = &shape[(i + 1) % shape.len()];
+            let next = &shape[if i + 1 < shape.len() { i + 1 } else { 0 }];
             let (depth_here, depth_next) = (inside(here), inside(next));
-            let keeps = |depth: f64| depth >= -self.tolerance;
             if keeps(depth_here) {
                 left.push(*here);
             }
@@ -216,7 +244,7 @@ impl Knife {
                 onward,
             });
         }
-        left
+        true
     }
 }
 

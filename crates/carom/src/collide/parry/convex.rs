@@ -62,12 +62,14 @@ impl Outline {
         Self { corners: [corner; CORNERS], count: 0, face }
     }
 
-    fn with(mut self, point: DVec3, vertex: Feature, edge: Feature) -> Self {
-        if self.count < CORNERS {
-            self.corners[self.count] = Corner { point, vertex, edge };
-            self.count += 1;
+    /// The outline of some corners, of [`CORNERS`] at most.
+    fn of(face: Feature, corners: impl IntoIterator<Item = (DVec3, Feature, Feature)>) -> Self {
+        let mut outline = Self::new(face);
+        for (place, (point, vertex, edge)) in outline.corners.iter_mut().zip(corners) {
+            *place = Corner { point, vertex, edge };
+            outline.count += 1;
         }
-        self
+        outline
     }
 
     pub fn corners(&self) -> &[Corner] {
@@ -177,12 +179,11 @@ impl Core<'_> {
     /// The side that faces the unit vector `direction`.
     pub fn outline(&self, direction: DVec3) -> Outline {
         let smooth = Feature::Surface;
-        let segment = |low: DVec3, high: DVec3| {
-            Outline::new(smooth).with(low, smooth, smooth).with(high, smooth, smooth)
-        };
+        let segment =
+            |low: DVec3, high: DVec3| Outline::of(smooth, [(low, smooth, smooth), (high, smooth, smooth)]);
         let on_axis = |y: f64| DVec3::new(0.0, y, 0.0);
         match *self {
-            Core::Point => Outline::new(smooth).with(DVec3::ZERO, smooth, smooth),
+            Core::Point => Outline::of(smooth, [(DVec3::ZERO, smooth, smooth)]),
             Core::Segment { half } => segment(on_axis(-half), on_axis(half)),
             Core::Balls { half, bottom, top } => {
                 segment(on_axis(-half) + direction * bottom, on_axis(half) + direction * top)
@@ -207,17 +208,19 @@ impl Core<'_> {
                 let (face, corners) = hull.face_towards(direction);
                 let count = corners.len();
                 let kept = count.min(CORNERS);
-                (0..kept).fold(Outline::new(Feature::Face(face)), |outline, k| {
+                let corner = |k: usize| {
                     let (here, next) = (corners[k * count / kept], corners[(k + 1) * count / kept % count]);
                     let edge = Feature::Edge(hull.edge_number(here, next));
-                    outline.with(hull.vertices()[here as usize], Feature::Vertex(here), edge)
-                })
+                    (hull.vertices()[here as usize], Feature::Vertex(here), edge)
+                };
+                Outline::of(Feature::Face(face), (0..kept).map(corner))
             }
             Core::Triangle { corners, index, vertices } => {
-                (0..3).fold(Outline::new(Feature::Face(index)), |outline, k| {
+                let corner = |k: usize| {
                     let edge = index.wrapping_mul(3).wrapping_add(k as u32);
-                    outline.with(corners[k], Feature::Vertex(vertices[k]), Feature::Edge(edge))
-                })
+                    (corners[k], Feature::Vertex(vertices[k]), Feature::Edge(edge))
+                };
+                Outline::of(Feature::Face(index), (0..3).map(corner))
             }
         }
     }
@@ -237,14 +240,15 @@ fn cuboid_side(half: DVec3, direction: DVec3) -> Outline {
     }
     let bit = |corner: u32, axis: usize| corner >> axis & 1;
     let face = Feature::Face(2 * axis as u32 + u32::from(positive));
-    (0..4).fold(Outline::new(face), |outline, k| {
+    let corner = |k: usize| {
         let (here, next) = (ring[k], ring[(k + 1) % 4]);
         let along = (here ^ next).trailing_zeros() as usize % 3;
         let (first, second) = [(1, 2), (0, 2), (0, 1)][along];
         let edge = 4 * along as u32 + bit(here, first) + 2 * bit(here, second);
         let side = |axis: usize| if bit(here, axis) == 1 { half[axis] } else { -half[axis] };
-        outline.with(DVec3::new(side(0), side(1), side(2)), Feature::Vertex(here), Feature::Edge(edge))
-    })
+        (DVec3::new(side(0), side(1), side(2)), Feature::Vertex(here), Feature::Edge(edge))
+    };
+    Outline::of(face, (0..4).map(corner))
 }
 
 /// A disc across y as a polygon of [`RIM`] corners that stand still in the shape's frame, so that they are the same ones
@@ -252,11 +256,12 @@ fn cuboid_side(half: DVec3, direction: DVec3) -> Outline {
 fn disc(y: f64, radius: f64, number: u32) -> Outline {
     static TURNS: LazyLock<[(f64, f64); RIM]> =
         LazyLock::new(|| std::array::from_fn(|k| sin_cos(k as f64 * (TAU / RIM as f64))));
-    (0..RIM).fold(Outline::new(Feature::Face(number)), |outline, k| {
+    let corner = |k: usize| {
         // Anticlockwise from outside: from z to x seen from above, the other way from below.
         let (sine, cosine) = TURNS[if number == 1 { k } else { RIM - 1 - k }];
         let name = number * RIM as u32 + k as u32;
         let point = DVec3::new(radius * sine, y, radius * cosine);
-        outline.with(point, Feature::Vertex(name), Feature::Edge(name))
-    })
+        (point, Feature::Vertex(name), Feature::Edge(name))
+    };
+    Outline::of(Feature::Face(number), (0..RIM).map(corner))
 }
