@@ -22,9 +22,10 @@ use crate::collide::{ContactPoint, Manifold};
 use crate::math::{DVec3, Pose};
 use crate::report::Feature;
 use crate::shape::Shape;
+use axis::Axis;
 use clip::Candidates;
 use convex::{Convex, Core};
-use facet::{Facet, Form};
+use facet::Form;
 pub(crate) use sides::{Wanted, lies_beyond_a_side};
 use triangles::{Triangles, triangles_of};
 
@@ -79,7 +80,13 @@ pub(crate) fn manifolds(a: (&Shape, &Pose), b: (&Shape, &Pose), margin: f64, out
     match (&kind_a, &kind_b) {
         (Kind::Convex(convex_a), Kind::Convex(convex_b)) => {
             let beside = Beside { convex: convex_b, inner: a.1.relative(b.1), form: None };
-            out.extend(convex_manifold((convex_a, a.1), &beside, &mut Candidates::new(margin), None));
+            let mut candidates = Candidates::new(margin);
+            let least = beside.gap_within(&convex_a.core, convex_a.radius, margin);
+            out.extend(
+                least.and_then(|least| {
+                    convex_manifold((convex_a, a.1), &beside, least, (&mut candidates, None))
+                }),
+            );
         }
         (Kind::Plane, Kind::Convex(convex)) => out.extend(plane_manifold(a.1, convex, b.1, margin)),
         (Kind::Plane, Kind::Surface(surface)) => {
@@ -139,28 +146,24 @@ struct Beside<'a> {
 }
 
 impl Beside<'_> {
-    /// As [`axis::gap_within`], between the two cores.
-    fn gap_within(&self, other: &Convex, limit: f64) -> Option<axis::Axis> {
-        match self.form.and_then(|form| Some((form, Facet::of(other)?))) {
-            Some((form, facet)) => facet.gap_within(form, limit),
-            None => axis::gap_within(&other.core, &self.convex.core, &self.inner, limit),
-        }
+    /// The axis of the largest gap to another core, if it and a radius around it come within `margin` of the shape.
+    fn gap_within(&self, core: &Core, radius: f64, margin: f64) -> Option<Axis> {
+        let radii = radius + self.convex.radius;
+        let found = axis::gap_within(core, &self.convex.core, &self.inner, radii + margin)?;
+        (found.gap - radii <= margin).then_some(found)
     }
 }
 
-/// The manifold of two convex shapes, if they come within the margin of `candidates`, which offers room.
+/// The manifold of two convex shapes, whose least gap is known, of the points within the margin of `candidates`, which offers
+/// room.
 fn convex_manifold(
     a: (&Convex, &Pose),
     beside: &Beside,
-    candidates: &mut Candidates,
-    surface: Option<&OnSurface>,
+    mut least: Axis,
+    (candidates, surface): (&mut Candidates, Option<&OnSurface>),
 ) -> Option<Manifold> {
     let (convex_a, convex_b, inner) = (a.0, beside.convex, &beside.inner);
-    let (radii, margin) = (convex_a.radius + convex_b.radius, candidates.margin());
-    let mut least = beside.gap_within(convex_a, radii + margin)?;
-    if least.gap - radii > margin {
-        return None;
-    }
+    let radii = convex_a.radius + convex_b.radius;
     let normal = surface.map_or(least.normal, |surface| (surface.correct)(least.normal));
     let corrected = normal.distance(least.normal) > 1e-9;
     least.normal = normal;

@@ -1,6 +1,6 @@
 //! Where two sides face each other: one outline cut to the other, and the best four of the points this leaves.
 
-use super::convex::{CORNERS, Convex, Corner};
+use super::convex::{CORNERS, Convex, Corner, Outline};
 use crate::collide::{ContactPoint, Manifold};
 use crate::math::{DVec3, Pose, any_tangent};
 use crate::report::Feature;
@@ -9,23 +9,19 @@ use crate::report::Feature;
 pub(super) struct Candidates {
     points: Vec<ContactPoint>,
     margin: f64,
-    /// Room for an outline before and after a cut.
+    /// Room for the two sides that face each other, and for an outline before and after a cut.
+    sides: [Outline; 2],
     cuts: [Vec<Cut>; 2],
 }
 
 impl Candidates {
     pub fn new(margin: f64) -> Self {
-        Self { points: Vec::new(), margin, cuts: [Vec::new(), Vec::new()] }
+        Self { points: Vec::new(), margin, sides: Default::default(), cuts: Default::default() }
     }
 
     /// Room for the points of another manifold within the same margin.
     pub fn clear(&mut self) {
         self.points.clear();
-    }
-
-    /// m
-    pub fn margin(&self) -> f64 {
-        self.margin
     }
 
     pub fn push(&mut self, point: ContactPoint) {
@@ -99,16 +95,28 @@ struct Cut {
 /// *Reentrant Polygon Clipping*, 1974) and offers the corners of what is left, in a's frame. Offers nothing where
 /// the sides pass each other edge on or meet in single points; the axis' own points stand in there.
 pub(super) fn contacts(a: &Convex, b: &Convex, b_in_a: &Pose, normal: DVec3, out: &mut Candidates) {
-    let side_a = a.core.outline(normal);
-    let mut side_b = b.core.outline(b_in_a.rotation.conjugate() * -normal);
-    side_b.corners_mut().iter_mut().for_each(|corner| corner.point = b_in_a.transform_point(corner.point));
+    let mut sides = std::mem::take(&mut out.sides);
+    let mut cuts = std::mem::take(&mut out.cuts);
+    a.core.outline_into(normal, &mut sides[0]);
+    b.core.outline_into(b_in_a.rotation.conjugate() * -normal, &mut sides[1]);
+    sides[1].corners_mut().iter_mut().for_each(|corner| corner.point = b_in_a.transform_point(corner.point));
+    contacts_of_sides((a.radius, &sides[0]), (b.radius, &sides[1]), normal, &mut cuts, out);
+    (out.sides, out.cuts) = (sides, cuts);
+}
+
+fn contacts_of_sides(
+    (radius_a, side_a): (f64, &Outline),
+    (radius_b, side_b): (f64, &Outline),
+    normal: DVec3,
+    [shape, left]: &mut [Vec<Cut>; 2],
+    out: &mut Candidates,
+) {
     let (across, up) = {
         let across = any_tangent(normal);
         (across, normal.cross(across))
     };
-    let [mut shape, mut left] = std::mem::take(&mut out.cuts);
     let mut offer = |x: f64, y: f64, heights: (f64, f64), features: (Feature, Feature)| {
-        let (low, high) = (heights.0 + a.radius, heights.1 - b.radius);
+        let (low, high) = (heights.0 + radius_a, heights.1 - radius_b);
         let point = across * x + up * y + normal * (0.5 * (low + high));
         let (feature_a, feature_b) = features;
         out.push(ContactPoint { point, separation: high - low, feature_a, feature_b });
@@ -125,7 +133,7 @@ pub(super) fn contacts(a: &Convex, b: &Convex, b_in_a: &Pose, normal: DVec3, out
     }
     // The knife must have an area; the other may be a segment or a point.
     let b_cuts = corners_b.len() > 2;
-    let (subject, knife) = if b_cuts { (&side_a, &side_b) } else { (&side_b, &side_a) };
+    let (subject, knife) = if b_cuts { (side_a, side_b) } else { (side_b, side_a) };
     let Some(plane) = Knife::new(knife.corners(), flat) else { return };
     shape.clear();
     for corner in subject.corners() {
@@ -134,11 +142,11 @@ pub(super) fn contacts(a: &Convex, b: &Convex, b_in_a: &Pose, normal: DVec3, out
         shape.push(Cut { x, y, height, own: corner.vertex, other: knife.face, onward });
     }
     for k in 0..knife.corners().len() {
-        if plane.cut((&shape, &mut left), k, knife.corners(), subject.face) {
-            std::mem::swap(&mut shape, &mut left);
+        if plane.cut((shape, left), k, knife.corners(), subject.face) {
+            std::mem::swap(shape, left);
         }
     }
-    for cut in &shape {
+    for cut in shape {
         let height = plane.height(cut.x, cut.y);
         if b_cuts {
             offer(cut.x, cut.y, (cut.height, height), (cut.own, cut.other));
@@ -146,7 +154,6 @@ pub(super) fn contacts(a: &Convex, b: &Convex, b_in_a: &Pose, normal: DVec3, out
             offer(cut.x, cut.y, (height, cut.height), (cut.other, cut.own));
         }
     }
-    out.cuts = [shape, left];
 }
 
 /// The outline that cuts: its sides in the plane across the normal, its own plane in space.

@@ -50,35 +50,33 @@ pub(super) struct Corner {
 
 /// The side of a core that faces some direction: a point, a segment or a flat polygon, anticlockwise from outside.
 pub(super) struct Outline {
-    corners: [Corner; CORNERS],
-    count: usize,
+    corners: Vec<Corner>,
     /// What its inside is.
     pub face: Feature,
 }
 
-impl Outline {
-    fn new(face: Feature) -> Self {
-        let corner = Corner { point: DVec3::ZERO, vertex: Feature::Surface, edge: Feature::Surface };
-        Self { corners: [corner; CORNERS], count: 0, face }
+impl Default for Outline {
+    fn default() -> Self {
+        Self { corners: Vec::new(), face: Feature::Surface }
     }
+}
 
-    /// The outline of some corners, of [`CORNERS`] at most.
-    fn of(face: Feature, corners: impl IntoIterator<Item = (DVec3, Feature, Feature)>) -> Self {
-        let mut outline = Self::new(face);
-        for (place, (point, vertex, edge)) in outline.corners.iter_mut().zip(corners) {
-            *place = Corner { point, vertex, edge };
-            outline.count += 1;
-        }
-        outline
+impl Outline {
+    /// Makes it that of some corners, of [`CORNERS`] at most.
+    fn be(&mut self, face: Feature, corners: impl IntoIterator<Item = (DVec3, Feature, Feature)>) {
+        let corner = |(point, vertex, edge): (DVec3, Feature, Feature)| Corner { point, vertex, edge };
+        self.face = face;
+        self.corners.clear();
+        self.corners.extend(corners.into_iter().take(CORNERS).map(corner));
     }
 
     pub fn corners(&self) -> &[Corner] {
-        &self.corners[..self.count]
+        &self.corners
     }
 
     /// The corners, to be moved to another frame.
     pub fn corners_mut(&mut self) -> &mut [Corner] {
-        &mut self.corners[..self.count]
+        &mut self.corners
     }
 }
 
@@ -178,17 +176,25 @@ impl Core<'_> {
 
     /// The side that faces the unit vector `direction`.
     pub fn outline(&self, direction: DVec3) -> Outline {
+        let mut outline = Outline::default();
+        self.outline_into(direction, &mut outline);
+        outline
+    }
+
+    /// The same, in the room of another one.
+    pub fn outline_into(&self, direction: DVec3, outline: &mut Outline) {
         let smooth = Feature::Surface;
-        let segment =
-            |low: DVec3, high: DVec3| Outline::of(smooth, [(low, smooth, smooth), (high, smooth, smooth)]);
+        let mut segment = |low: DVec3, high: DVec3| {
+            outline.be(smooth, [(low, smooth, smooth), (high, smooth, smooth)]);
+        };
         let on_axis = |y: f64| DVec3::new(0.0, y, 0.0);
         match *self {
-            Core::Point => Outline::of(smooth, [(DVec3::ZERO, smooth, smooth)]),
+            Core::Point => outline.be(smooth, [(DVec3::ZERO, smooth, smooth)]),
             Core::Segment { half } => segment(on_axis(-half), on_axis(half)),
             Core::Balls { half, bottom, top } => {
                 segment(on_axis(-half) + direction * bottom, on_axis(half) + direction * top)
             }
-            Core::Cuboid { half } => cuboid_side(half, direction),
+            Core::Cuboid { half } => cuboid_side(half, direction, outline),
             Core::Frustum { half, bottom, top } => {
                 let radial = DVec3::new(direction.x, 0.0, direction.z);
                 let (out, height) = (radial.normalize_or_zero(), 2.0 * half);
@@ -197,11 +203,11 @@ impl Core<'_> {
                 let along_side = slant.x * radial.length() + slant.y * direction.y;
                 let (up, down) = (direction.y, -direction.y);
                 if top > 0.0 && up >= along_side && up >= down {
-                    disc(half, top, 1)
+                    disc(half, top, 1, outline);
                 } else if bottom > 0.0 && down >= along_side {
-                    disc(-half, bottom, 0)
+                    disc(-half, bottom, 0, outline);
                 } else {
-                    segment(on_axis(-half) + out * bottom, on_axis(half) + out * top)
+                    segment(on_axis(-half) + out * bottom, on_axis(half) + out * top);
                 }
             }
             Core::Hull(hull) => {
@@ -213,14 +219,14 @@ impl Core<'_> {
                     let edge = Feature::Edge(hull.edge_number(here, next));
                     (hull.vertices()[here as usize], Feature::Vertex(here), edge)
                 };
-                Outline::of(Feature::Face(face), (0..kept).map(corner))
+                outline.be(Feature::Face(face), (0..kept).map(corner));
             }
             Core::Triangle { corners, index, vertices } => {
                 let corner = |k: usize| {
                     let edge = index.wrapping_mul(3).wrapping_add(k as u32);
                     (corners[k], Feature::Vertex(vertices[k]), Feature::Edge(edge))
                 };
-                Outline::of(Feature::Face(index), (0..3).map(corner))
+                outline.be(Feature::Face(index), (0..3).map(corner));
             }
         }
     }
@@ -228,7 +234,7 @@ impl Core<'_> {
 
 /// The face of a box that faces `direction`, numbered as [`Feature`] says; the edge along an axis is 4 times the
 /// axis, plus 1 and 2 where it lies on the positive side of the first and second of the other axes.
-fn cuboid_side(half: DVec3, direction: DVec3) -> Outline {
+fn cuboid_side(half: DVec3, direction: DVec3, outline: &mut Outline) {
     let size = direction.abs();
     let axis = if size.x >= size.y && size.x >= size.z { 0 } else { 1 + usize::from(size.z > size.y) };
     let positive = direction[axis] > 0.0;
@@ -248,12 +254,12 @@ fn cuboid_side(half: DVec3, direction: DVec3) -> Outline {
         let side = |axis: usize| if bit(here, axis) == 1 { half[axis] } else { -half[axis] };
         (DVec3::new(side(0), side(1), side(2)), Feature::Vertex(here), Feature::Edge(edge))
     };
-    Outline::of(face, (0..4).map(corner))
+    outline.be(face, (0..4).map(corner));
 }
 
 /// A disc across y as a polygon of [`RIM`] corners that stand still in the shape's frame, so that they are the same ones
 /// from step to step. Numbered from 0 below (`number` 0) and from [`RIM`] above (`number` 1).
-fn disc(y: f64, radius: f64, number: u32) -> Outline {
+fn disc(y: f64, radius: f64, number: u32, outline: &mut Outline) {
     static TURNS: LazyLock<[(f64, f64); RIM]> =
         LazyLock::new(|| std::array::from_fn(|k| sin_cos(k as f64 * (TAU / RIM as f64))));
     let corner = |k: usize| {
@@ -263,5 +269,5 @@ fn disc(y: f64, radius: f64, number: u32) -> Outline {
         let point = DVec3::new(radius * sine, y, radius * cosine);
         (point, Feature::Vertex(name), Feature::Edge(name))
     };
-    Outline::of(Feature::Face(number), (0..RIM).map(corner))
+    outline.be(Feature::Face(number), (0..RIM).map(corner));
 }

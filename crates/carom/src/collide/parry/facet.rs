@@ -10,7 +10,7 @@
 mod way_out;
 
 use super::axis::Axis;
-use super::convex::{Convex, Core};
+use super::convex::Core;
 use crate::collide::ROUNDING;
 use crate::collide::closest::closest;
 use crate::collide::cuboid::Cuboid;
@@ -73,17 +73,17 @@ impl Farthest for Facet {
 }
 
 impl Facet {
-    /// `None` for what is no triangle, or has no area.
-    pub fn of(triangle: &Convex) -> Option<Self> {
-        let Core::Triangle { corners, .. } = triangle.core else { return None };
-        Self::new(corners)
+    /// `None` where rounding leaves no direction at right angles to it.
+    pub fn new(corners: [DVec3; 3]) -> Option<Self> {
+        let [a, b, c] = corners;
+        Self::with_normal(corners, (b - a).cross(c - a).normalize_or_zero())
     }
 
-    fn new(corners: [DVec3; 3]) -> Option<Self> {
+    /// The same for a known direction, around which the corners run anticlockwise.
+    pub fn with_normal(corners: [DVec3; 3], normal: DVec3) -> Option<Self> {
         let [a, b, c] = corners;
-        let normal = (b - a).cross(c - a).try_normalize()?;
         let size = 0.5 * (a.max(b).max(c) - a.min(b).min(c)).max_element();
-        Some(Self { corners, normal, size })
+        (normal != DVec3::ZERO).then_some(Self { corners, normal, size })
     }
 
     /// How far `point` is above the triangle's plane, m.
@@ -133,21 +133,22 @@ impl Facet {
             Form::Segment(core) => {
                 let reach = core.half.dot(self.normal).abs();
                 let over = self.height(core.center).abs() - reach;
-                over.max(self.gap_towards(core.center, |way| core.center.dot(way) - core.half.dot(way).abs()))
+                let way = core.center - self.closest_to(core.center);
+                over.max(self.gap_towards(way, |way| core.center.dot(way) - core.half.dot(way).abs()))
             }
             Form::Solid(solid) => {
                 let middle = solid.place(solid.shape.middle);
                 let own = self.normal_towards(middle);
                 let over = (solid.farthest(-own).1 - self.corners[0]).dot(own);
-                over.max(self.gap_towards(middle, |way| solid.farthest(-way).1.dot(way)))
+                let way = middle - self.closest_to(middle);
+                over.max(self.gap_towards(way, |way| solid.farthest(-way).1.dot(way)))
             }
         }
     }
 
-    /// The gap along the way from the triangle to `middle`; `lowest` tells how far the other one reaches against a way.
-    fn gap_towards(&self, middle: DVec3, lowest: impl Fn(DVec3) -> f64) -> f64 {
-        let way = (middle - self.closest_to(middle)).try_normalize();
-        way.map_or(f64::NEG_INFINITY, |way| lowest(way) - self.farthest(way).1.dot(way))
+    /// The gap along a way of any length; `lowest` tells how far the other one reaches against it.
+    fn gap_towards(&self, way: DVec3, lowest: impl Fn(DVec3) -> f64) -> f64 {
+        way.try_normalize().map_or(f64::NEG_INFINITY, |way| lowest(way) - self.farthest(way).1.dot(way))
     }
 
     /// The triangle's normal, on the side where `point` is.
@@ -265,6 +266,10 @@ impl Facet {
         if gap > 0.0 && self.is_over(on_b) {
             return Some(own);
         }
+        let towards = middle - self.closest_to(middle);
+        if limit < f64::MAX && self.gap_towards(towards, |way| solid.farthest(-way).1.dot(way)) > limit {
+            return None;
+        }
         if gap <= 0.0 {
             // Where the way from its middle to its lowest corner passes through the plane.
             let share = gap / (gap - (middle - self.corners[0]).dot(normal));
@@ -274,7 +279,7 @@ impl Facet {
             }
         }
         let size = self.size + solid.shape.size();
-        let towards = if gap > 0.0 { normal } else { middle - self.closest_to(middle) };
+        let towards = if gap > 0.0 { normal } else { towards };
         let found = closest((self, solid), towards, size, limit)?;
         let (on_a, on_b) = found.points(self, solid);
         if !found.is_apart {

@@ -1,15 +1,15 @@
 //! Meshes and height fields: every triangle near the other shape is a convex core of its own.
 
+use super::axis::Axis;
 use super::clip::Candidates;
 use super::convex::{Convex, Core};
-use super::facet::{Facet, Form};
+use super::facet::Form;
 use super::triangles::{Triangles, triangles_of};
 use super::{Beside, OnSurface, axis, convex_manifold};
 use crate::collide::{ContactPoint, Manifold};
 use crate::math::{DVec3, Pose};
 use crate::report::Feature;
 use crate::shape::Shape;
-use std::cell::Cell;
 
 pub(super) fn triangle_core(surface: &dyn Triangles, index: u32) -> Convex<'static> {
     let (corners, vertices) = (surface.corners(index), surface.corner_numbers(index));
@@ -24,17 +24,35 @@ fn nearby(surface: &dyn Triangles, low: DVec3, high: DVec3, margin: f64) -> Vec<
 
 /// A gap (m) between a triangle and a convex shape that their distance is no less than: the widest along a few
 /// directions, at the price of a few support points.
-fn gap_at_least(triangle: &Convex, beside: &Beside) -> f64 {
-    let Some(facet) = Facet::of(triangle) else { return f64::NEG_INFINITY };
+fn gap_at_least(surface: &dyn Triangles, index: u32, beside: &Beside) -> f64 {
+    let Some(facet) = surface.facet(index) else { return f64::NEG_INFINITY };
     let gap = match beside.form {
         Some(form) => facet.gap_at_least(form),
         None => {
+            let triangle = triangle_core(surface, index);
             let middle = beside.inner.transform_point(beside.convex.core.middle());
             let gap = |way: DVec3| axis::along(&triangle.core, &beside.convex.core, &beside.inner, way).gap;
             facet.ways_to(middle).into_iter().flatten().map(gap).fold(f64::NEG_INFINITY, f64::max)
         }
     };
     gap - beside.convex.radius
+}
+
+/// The axis of the largest gap between a triangle and the core of a convex shape, if that shape comes within `margin`.
+fn gap_within(surface: &dyn Triangles, index: u32, beside: &Beside, margin: f64) -> Option<Axis> {
+    let radius = beside.convex.radius;
+    match beside.form.and_then(|form| Some((form, surface.facet(index)?))) {
+        Some((form, facet)) => {
+            facet.gap_within(form, radius + margin).filter(|axis| axis.gap - radius <= margin)
+        }
+        None => {
+            // Rounding must not turn away what is just near enough.
+            let slack = 1e-9 * (beside.convex.core.reach() + radius);
+            let is_far = margin < f64::MAX && gap_at_least(surface, index, beside) > margin + slack;
+            let found = || beside.gap_within(&triangle_core(surface, index).core, 0.0, margin);
+            if is_far { None } else { found() }
+        }
+    }
 }
 
 /// The least separation of any triangle from `other`, which is no plane.
@@ -46,7 +64,7 @@ pub(super) fn separation(surface: &dyn Triangles, pose: &Pose, other: &Shape, ot
     let extent = (high - low).max_element();
     // What is not found by a search is farther off than its horizon. Mostly the other is close, and a short look will do.
     let mut farthest = boxes_apart;
-    for horizon in [extent / 256.0, extent / 32.0, extent / 4.0] {
+    for horizon in [extent / 32.0, extent / 4.0] {
         if boxes_apart >= horizon {
             continue;
         }
@@ -93,7 +111,7 @@ fn separation_within(
 /// The least separation of the triangles `near` from a convex shape, if it is below `least`. What is sure to be no
 /// closer than something else is not measured: likely ones go first.
 fn least_separation(surface: &dyn Triangles, near: Vec<u32>, beside: &Beside, least: f64) -> f64 {
-    let bound = |index: u32| gap_at_least(&triangle_core(surface, index), beside);
+    let bound = |index: u32| gap_at_least(surface, index, beside);
     let mut queue: Vec<(f64, u32)> = near.into_iter().map(|index| (bound(index), index)).collect();
     queue.sort_unstable_by(|one, other| one.0.total_cmp(&other.0).then(one.1.cmp(&other.1)));
     let (mut least, radius) = (least, beside.convex.radius);
@@ -102,7 +120,7 @@ fn least_separation(surface: &dyn Triangles, near: Vec<u32>, beside: &Beside, le
         if bound > least.max(0.0) {
             break;
         }
-        if let Some(axis) = beside.gap_within(&triangle_core(surface, index), least.max(0.0) + radius) {
+        if let Some(axis) = gap_within(surface, index, beside, least.max(0.0)) {
             least = least.min(axis.gap - radius);
         }
     }
@@ -153,38 +171,25 @@ fn convex_manifolds(
     let first = out.len();
     let convex = beside.convex;
     let middle = beside.inner.transform_point(convex.core.middle());
-    // Rounding must not turn away what is just near enough.
-    let slack = 1e-9 * (convex.core.reach() + convex.radius);
-    let mut touched = Vec::new();
+    let mut touched: Option<(Axis, u32)> = None;
     let mut candidates = Candidates::new(margin);
     for &index in near {
+        let Some(axis) = gap_within(surface, index, beside, margin) else { continue };
+        if touched.is_none_or(|(least, _)| axis.gap < least.gap) {
+            touched = Some((axis, index));
+        }
         let triangle = triangle_core(surface, index);
-        if gap_at_least(&triangle, beside) > margin + slack {
-            continue;
-        }
-        // Whoever asks for the normal has found the two within the margin.
-        let touches = Cell::new(false);
-        let correct = |normal: DVec3| {
-            touches.set(true);
-            surface_normal(surface, index, normal, middle)
-        };
+        let correct = |normal: DVec3| surface_normal(surface, index, normal, middle);
         let around = OnSurface { correct: &correct, known: &out[first..] };
-        let found = convex_manifold((&triangle, pose), beside, &mut candidates, Some(&around));
+        let found = convex_manifold((&triangle, pose), beside, axis, (&mut candidates, Some(&around)));
         out.extend(found);
-        if touches.get() {
-            touched.push(index);
-        }
     }
     if out.len() > first {
         return;
     }
-    let gap = |index: u32| {
-        beside.gap_within(&triangle_core(surface, index), f64::MAX).map_or(f64::INFINITY, |axis| axis.gap)
-    };
-    let gaps = touched.into_iter().map(|index| (gap(index), index));
-    if let Some((_, deepest)) = gaps.min_by(|one, other| one.0.total_cmp(&other.0)) {
+    if let Some((axis, deepest)) = touched {
         let triangle = triangle_core(surface, deepest);
-        out.extend(convex_manifold((&triangle, pose), beside, &mut candidates, None));
+        out.extend(convex_manifold((&triangle, pose), beside, axis, (&mut candidates, None)));
     }
 }
 
@@ -206,7 +211,8 @@ fn surface_manifolds(
             let other_triangle = triangle_core(other, other_index);
             let around = OnSurface { correct: &|normal| normal, known: &out[first..] };
             let beside = Beside { convex: &other_triangle, inner: pose.relative(other_pose), form: None };
-            let found = convex_manifold((&triangle, pose), &beside, &mut candidates, Some(&around));
+            let Some(axis) = beside.gap_within(&triangle.core, 0.0, margin) else { continue };
+            let found = convex_manifold((&triangle, pose), &beside, axis, (&mut candidates, Some(&around)));
             out.extend(found);
         }
     }

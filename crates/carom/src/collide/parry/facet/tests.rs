@@ -1,6 +1,7 @@
 //! parry finds the same, and so does a look along many directions.
 
 use super::super::axis;
+use super::super::convex::Convex;
 use super::*;
 use crate::math::{DQuat, rotation_from_vector};
 use crate::shape::Shape;
@@ -39,7 +40,7 @@ fn triangle_of(corners: [DVec3; 3]) -> Convex<'static> {
 /// What the kernels find, and parry's.
 fn found(corners: [DVec3; 3], shape: &Shape, pose: &Pose, limit: f64) -> (Option<Axis>, Axis) {
     let (triangle, convex) = (triangle_of(corners), Convex::of(shape).unwrap());
-    let facet = Facet::of(&triangle).unwrap();
+    let facet = Facet::new(corners).unwrap();
     let own = Form::with(&convex.core, pose, |form| {
         let form = form.unwrap();
         let own = facet.gap_within(form, limit);
