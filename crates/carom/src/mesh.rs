@@ -12,6 +12,9 @@ pub struct Mesh {
     triangles: Vec<[u32; 3]>,
     /// For each side of each triangle, the triangle beyond it: `None` at a border or where more than two meet.
     neighbours: Vec<[Option<u32>; 3]>,
+    /// At right angles to each triangle, unit length, its corners anticlockwise around it; zero where rounding leaves none, not
+    /// a number where there is no area.
+    normals: Vec<DVec3>,
     tree: TriMesh,
     low: DVec3,
     high: DVec3,
@@ -33,11 +36,13 @@ impl Mesh {
                 }
             }
         }
-        let has_area = |triangle: &[u32; 3]| {
+        let normal = |triangle: &[u32; 3]| {
             let [a, b, c] = triangle.map(|index| vertices[index as usize]);
-            (b - a).cross(c - a) != DVec3::ZERO
+            let cross = (b - a).cross(c - a);
+            if cross == DVec3::ZERO { DVec3::NAN } else { cross.normalize_or_zero() }
         };
-        if !triangles.iter().any(has_area) {
+        let normals: Vec<DVec3> = triangles.iter().map(normal).collect();
+        if normals.iter().all(|normal| normal.is_nan()) {
             let found = format!("{} triangles without area", triangles.len());
             return Err(Invalid::new("triangles", found, "at least one triangle with an area"));
         }
@@ -47,7 +52,7 @@ impl Mesh {
         let used = || triangles.iter().flatten().map(|&index| vertices[index as usize]);
         let low = used().fold(DVec3::INFINITY, DVec3::min);
         let high = used().fold(DVec3::NEG_INFINITY, DVec3::max);
-        Ok(Self { neighbours, tree, low, high, vertices, triangles })
+        Ok(Self { neighbours, normals, tree, low, high, vertices, triangles })
     }
 
     /// Its corners, m.
@@ -63,6 +68,17 @@ impl Mesh {
     /// The corners of a triangle, m.
     pub(crate) fn corners(&self, triangle: u32) -> [DVec3; 3] {
         self.triangles[triangle as usize].map(|index| self.vertices[index as usize])
+    }
+
+    /// The direction at right angles to a triangle around which its corners run anticlockwise, unit length; zero where rounding
+    /// leaves none.
+    pub(crate) fn normal(&self, triangle: u32) -> DVec3 {
+        self.normals[triangle as usize]
+    }
+
+    /// Whether there is a triangle of that number, and it has an area.
+    pub(crate) fn has_area(&self, triangle: u32) -> bool {
+        self.normals.get(triangle as usize).is_some_and(|normal| !normal.is_nan())
     }
 
     /// The triangles beyond the sides 0→1, 1→2, 2→0 of a triangle.

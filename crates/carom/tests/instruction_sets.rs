@@ -183,7 +183,7 @@ const THREADS: [u32; 3] = [1, 2, 4];
 /// The hashes of states and events of [pile, mesh, gas, cradle, stack, crowd].
 const EXPECTED: [[u64; 2]; 6] = [
     [0x3c04_4ae4_7f3f_7d33, 0x3653_d05b_e9da_3c41],
-    [0x7f3d_1ba0_5f38_cace, 0x854c_d952_c43f_f330],
+    [0xc171_5e7d_0f2a_904e, 0x17c5_a9b3_46a3_474d],
     [0x82e7_4950_5da6_dd2e, 0xcf19_842b_7889_4af9],
     [0xc1e1_fd04_731e_91a0, 0xf840_eec8_201f_e158],
     [0x799d_2f88_2cbd_60eb, 0xf3ec_1938_f169_673a],

@@ -3,7 +3,7 @@
 //! Everything happens in `a`'s frame. Sources: Gottschalk, Lin and Manocha, *OBBTree*, SIGGRAPH 1996 (the fifteen
 //! axes); Gregorius, *The Separating Axis Test between Convex Polyhedra*, GDC 2013 (contacts from axes).
 
-use super::clip::{Block, overlap};
+use super::clip::{Block, Overlap, overlap};
 use super::cuboid::{self, Cuboid};
 use super::manifold::{ContactPoint, Manifold};
 use super::segment::{Segment, outside};
@@ -60,23 +60,24 @@ pub(crate) fn manifold(a: &Cuboid, b: &Cuboid, margin: f64) -> Option<Manifold> 
     if axis.gap > margin {
         return None;
     }
-    let patch = match axis.source {
-        Source::FaceA => Some(overlap(&pair.a, &pair.b, axis.normal)),
-        Source::FaceB => Some(overlap(&pair.b, &pair.a, -axis.normal).flipped()),
-        Source::Edges(..) if pair.is_flat(axis.normal) => Some(overlap(&pair.a, &pair.b, axis.normal)),
+    let mut near = Overlap::NONE;
+    match axis.source {
+        Source::FaceA => overlap(&pair.a, &pair.b, axis.normal, &mut near),
+        Source::FaceB => {
+            overlap(&pair.b, &pair.a, -axis.normal, &mut near);
+            near.flip();
+        }
+        Source::Edges(..) if pair.is_flat(axis.normal) => {
+            overlap(&pair.a, &pair.b, axis.normal, &mut near);
+        }
         Source::Edges(along_a, along_b) => {
             if let Some(point) = pair.edge_contact(&axis, along_a, along_b) {
                 return Some(Manifold::single(axis.normal, point).placed(&a.pose));
             }
-            None
         }
-    };
+    }
     let tolerance = 10.0 * ROUNDING * pair.size();
-    let least = patch
-        .iter()
-        .flat_map(|patch| patch.points())
-        .map(|point| point.separation)
-        .fold(f64::INFINITY, f64::min);
+    let least = near.points().iter().map(|point| point.separation).fold(f64::INFINITY, f64::min);
     if least > axis.gap + tolerance
         && let Some((normal, point)) = pair.closest_contact(&axis)
         && point.separation < least - tolerance
@@ -84,7 +85,6 @@ pub(crate) fn manifold(a: &Cuboid, b: &Cuboid, margin: f64) -> Option<Manifold> 
         let found = || Manifold::single(normal, point).placed(&a.pose);
         return (point.separation <= margin).then(found);
     }
-    let mut near = patch?;
     near.level_and_keep((axis.gap, tolerance), margin);
     (!near.points().is_empty()).then(|| Manifold::reduced(axis.normal, near.points()).placed(&a.pose))
 }

@@ -45,6 +45,9 @@ pub(crate) struct Overlap {
 }
 
 impl Overlap {
+    /// Room for one.
+    pub(crate) const NONE: Overlap = Overlap { points: [ContactPoint::NONE; 8], count: 0 };
+
     /// The contacts.
     pub(crate) fn points(&self) -> &[ContactPoint] {
         &self.points[..self.count]
@@ -67,10 +70,9 @@ impl Overlap {
         self.count = kept;
     }
 
-    /// The same contacts with `a` and `b` exchanged.
-    pub(crate) fn flipped(mut self) -> Self {
+    /// Exchanges `a` and `b`.
+    pub(crate) fn flip(&mut self) {
         self.points[..self.count].iter_mut().for_each(|point| *point = point.flipped());
-        self
     }
 }
 
@@ -78,9 +80,9 @@ impl Overlap {
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Side {
     /// Of the incident face, between its corners number n and n + 1 (around the face).
-    Incident(usize),
+    Incident(u8),
     /// Of the reference face, over its border at the negative or positive end of the axis `u` (0) or `v` (1).
-    Reference(usize, bool),
+    Reference(u8, bool),
 }
 
 /// A corner of that polygon.
@@ -91,7 +93,7 @@ struct Vertex {
     /// From the reference face to it along the normal.
     separation: f64,
     /// Which corner of the incident face it is, around that face, if it is one.
-    corner: Option<usize>,
+    corner: Option<u8>,
     /// The side that begins here.
     side: Side,
 }
@@ -122,22 +124,23 @@ impl Polygon {
 /// the normal, is still a corner of the polygon and has the edges' own distance.
 ///
 /// In the contacts `a` is the reference and `b` the incident box.
-pub(crate) fn overlap(reference: &Block, incident: &Block, normal: DVec3) -> Overlap {
+pub(crate) fn overlap(reference: &Block, incident: &Block, normal: DVec3, overlap: &mut Overlap) {
     let upward = reference.components(normal);
     let face = cuboid::facing(upward);
     let axis = face as usize / 2;
     let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
     let incident_corners = cuboid::face_corners(cuboid::facing(-incident.components(normal)));
 
-    let vertices = std::array::from_fn(|index| {
-        let corner = index % 4;
-        let place = incident.place(cuboid::corner(incident_corners[corner], incident.half));
+    let vertex = |corner: u8| {
+        let place = incident.place(cuboid::corner(incident_corners[usize::from(corner)], incident.half));
         let local = reference.local(place);
         let height = local[axis] * upward[axis].signum() - reference.half[axis];
         let separation = height / upward[axis].abs();
         let foot = local - upward * separation;
         Vertex { foot: [foot[u], foot[v]], separation, corner: Some(corner), side: Side::Incident(corner) }
-    });
+    };
+    let [first, second, third, fourth] = [0, 1, 2, 3].map(vertex);
+    let vertices = [first, second, third, fourth, first, first, first, first];
     let mut polygon = Polygon { vertices, count: 4 };
     let tolerance = 1e-10 * reference.half.max_element().min(incident.half.max_element());
     for (direction, limit) in [(0, reference.half[u]), (1, reference.half[v])] {
@@ -146,10 +149,10 @@ pub(crate) fn overlap(reference: &Block, incident: &Block, normal: DVec3) -> Ove
         }
     }
 
-    let mut overlap = Overlap { points: [ContactPoint::NONE; 8], count: polygon.count };
+    overlap.count = polygon.count;
     for index in 0..polygon.count {
         let vertex = &polygon.vertices[index];
-        let before = polygon.vertices[(index + polygon.count - 1) % polygon.count].side;
+        let before = polygon.vertices[if index > 0 { index - 1 } else { polygon.count - 1 }].side;
         let mut foot = DVec3::ZERO;
         (foot[u], foot[v]) = (vertex.foot[0], vertex.foot[1]);
         foot[axis] = reference.half[axis] * upward[axis].signum();
@@ -161,7 +164,6 @@ pub(crate) fn overlap(reference: &Block, incident: &Block, normal: DVec3) -> Ove
             feature_b,
         };
     }
-    overlap
 }
 
 /// Keeps the part of the polygon with ± foot[direction] ≤ `limit`. A corner within `tolerance` of the border is on it: it stays
@@ -172,10 +174,10 @@ fn clip(polygon: &mut Polygon, (direction, positive): (usize, bool), limit: f64,
         return;
     }
     let mut clipped = Polygon { count: 0, ..*polygon };
-    let border = Side::Reference(direction, positive);
+    let border = Side::Reference(direction as u8, positive);
     for index in 0..polygon.count {
         let here = polygon.vertices[index];
-        let next = polygon.vertices[(index + 1) % polygon.count];
+        let next = polygon.vertices[if index + 1 < polygon.count { index + 1 } else { 0 }];
         let (beyond_here, beyond_next) = (beyond(&here), beyond(&next));
         let crossing = |side: Side| {
             let share = beyond_here / (beyond_here - beyond_next);
@@ -206,14 +208,15 @@ fn features(
     (face, foot): (u32, DVec3),
     incident_corners: &[u32; 4],
 ) -> (Feature, Feature) {
-    let incident_edge = |n: usize| cuboid::edge_between(incident_corners[n], incident_corners[(n + 1) % 4]);
-    let reference_edge = |direction: usize| {
+    let incident_corner = |n: u8| incident_corners[usize::from(n % 4)];
+    let incident_edge = |n: u8| cuboid::edge_between(incident_corner(n), incident_corner(n + 1));
+    let reference_edge = |direction: u8| {
         // The border across u runs along v, and the other way round.
-        let along = (face as usize / 2 + 2 - direction) % 3;
+        let along = (face as usize / 2 + 2 - usize::from(direction)) % 3;
         Feature::Edge(cuboid::edge_number(along, cuboid::farthest_corner(foot)))
     };
     match (vertex.corner, before, vertex.side) {
-        (Some(corner), _, _) => (Feature::Face(face), Feature::Vertex(incident_corners[corner])),
+        (Some(corner), _, _) => (Feature::Face(face), Feature::Vertex(incident_corner(corner))),
         (None, Side::Incident(n), Side::Reference(direction, _))
         | (None, Side::Reference(direction, _), Side::Incident(n)) => {
             (reference_edge(direction), incident_edge(n))

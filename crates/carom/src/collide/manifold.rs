@@ -85,25 +85,19 @@ impl Manifold {
         let origin = candidates[0].point;
         let extent = candidates.iter().map(|c| c.point.distance(origin)).fold(0.0, f64::max);
         let (length, area) = (ROUNDING * extent, ROUNDING * extent * extent);
-        let deepest_of_largest = |tolerance: f64, value: &dyn Fn(&ContactPoint) -> f64| {
-            let largest = candidates.iter().map(value).fold(f64::NEG_INFINITY, f64::max);
-            let equal = || candidates.iter().filter(|c| value(c) >= largest - tolerance);
-            let least = equal().map(|c| c.separation).fold(f64::INFINITY, f64::min);
-            *equal().find(|c| c.separation <= least + length).unwrap_or(&candidates[0])
-        };
         // Twice the area of a triangle seen along the normal, positive if its corners run anticlockwise.
         let spanned = |a: DVec3, b: DVec3, c: DVec3| normal.dot((b - a).cross(c - a));
 
-        let deepest = deepest_of_largest(length, &|c| -c.separation);
+        let deepest = deepest_of_largest(candidates, (length, length), |c| -c.separation);
         let a = deepest.point;
-        let farthest = deepest_of_largest(area, &|c| c.point.distance_squared(a));
+        let farthest = deepest_of_largest(candidates, (area, length), |c| c.point.distance_squared(a));
         let b = farthest.point;
         manifold.push(deepest);
         if b.distance_squared(a) <= area {
             return manifold;
         }
         manifold.push(farthest);
-        let widest = deepest_of_largest(area, &|c| spanned(a, b, c.point).abs());
+        let widest = deepest_of_largest(candidates, (area, length), |c| spanned(a, b, c.point).abs());
         if spanned(a, b, widest.point).abs() <= area {
             return manifold;
         }
@@ -112,7 +106,7 @@ impl Manifold {
             if spanned(a, b, widest.point) > 0.0 { [a, b, widest.point] } else { [b, a, widest.point] };
         let added =
             |p: &ContactPoint| spanned(b, a, p.point).max(spanned(c, b, p.point)).max(spanned(a, c, p.point));
-        let last = deepest_of_largest(area, &added);
+        let last = deepest_of_largest(candidates, (area, length), added);
         if added(&last) > area {
             manifold.push(last);
         }
@@ -136,4 +130,20 @@ impl Manifold {
         }
         self
     }
+}
+
+/// Of those whose value is less than `tolerance` below the largest, the first that is deepest to within `length` (m).
+fn deepest_of_largest(
+    candidates: &[ContactPoint],
+    (tolerance, length): (f64, f64),
+    value: impl Fn(&ContactPoint) -> f64,
+) -> ContactPoint {
+    // Most are few, and each value is asked for more than once.
+    let mut known = [0.0; 16];
+    known.iter_mut().zip(candidates).for_each(|(known, candidate)| *known = value(candidate));
+    let value = |k: usize| if k < known.len() { known[k] } else { value(&candidates[k]) };
+    let largest = (0..candidates.len()).map(value).fold(f64::NEG_INFINITY, f64::max);
+    let equal = || (0..candidates.len()).filter(|&k| value(k) >= largest - tolerance).map(|k| &candidates[k]);
+    let least = equal().map(|c| c.separation).fold(f64::INFINITY, f64::min);
+    *equal().find(|c| c.separation <= least + length).unwrap_or(&candidates[0])
 }

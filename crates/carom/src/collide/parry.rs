@@ -6,11 +6,13 @@
 //! direction is then taken from the cores' support points, so it never exceeds the true distance, whatever parry's
 //! tolerance. Contact points come from clipping the two flat sides that face each other (`clip.rs`), or it is one point where
 //! the two come closest (`witness.rs`). A mesh or a height field is a set of triangles (`triangles.rs`), each a core of its own
-//! (`surface.rs`). A plane needs nothing but support points.
+//! (`surface.rs`); balls, capsules, cuboids and hulls have kernels of their own beside a triangle (`facet.rs`). A plane needs
+//! nothing but support points.
 
 mod axis;
 mod clip;
 mod convex;
+mod facet;
 mod sides;
 mod surface;
 mod triangles;
@@ -20,8 +22,10 @@ use crate::collide::{ContactPoint, Manifold};
 use crate::math::{DVec3, Pose};
 use crate::report::Feature;
 use crate::shape::Shape;
+use axis::Axis;
 use clip::Candidates;
-use convex::Convex;
+use convex::{Convex, Core};
+use facet::Form;
 pub(crate) use sides::{Wanted, lies_beyond_a_side};
 use triangles::{Triangles, triangles_of};
 
@@ -75,7 +79,14 @@ pub(crate) fn manifolds(a: (&Shape, &Pose), b: (&Shape, &Pose), margin: f64, out
     let mut turned = false;
     match (&kind_a, &kind_b) {
         (Kind::Convex(convex_a), Kind::Convex(convex_b)) => {
-            out.extend(convex_manifold((convex_a, a.1), (convex_b, b.1), margin, None));
+            let beside = Beside { convex: convex_b, inner: a.1.relative(b.1), form: None };
+            let mut candidates = Candidates::new(margin);
+            let least = beside.gap_within(&convex_a.core, convex_a.radius, margin);
+            out.extend(
+                least.and_then(|least| {
+                    convex_manifold((convex_a, a.1), &beside, least, (&mut candidates, None))
+                }),
+            );
         }
         (Kind::Plane, Kind::Convex(convex)) => out.extend(plane_manifold(a.1, convex, b.1, margin)),
         (Kind::Plane, Kind::Surface(surface)) => {
@@ -125,39 +136,53 @@ struct OnSurface<'a> {
     known: &'a [Manifold],
 }
 
-/// The manifold of two convex shapes, if they come within `margin`.
+/// A convex shape in the frame of another one.
+struct Beside<'a> {
+    convex: &'a Convex<'a>,
+    /// Its pose there.
+    inner: Pose,
+    /// Of its core, where triangles have kernels of their own for it.
+    form: Option<&'a Form<'a>>,
+}
+
+impl Beside<'_> {
+    /// The axis of the largest gap to another core, if it and a radius around it come within `margin` of the shape.
+    fn gap_within(&self, core: &Core, radius: f64, margin: f64) -> Option<Axis> {
+        let radii = radius + self.convex.radius;
+        let found = axis::gap_within(core, &self.convex.core, &self.inner, radii + margin)?;
+        (found.gap - radii <= margin).then_some(found)
+    }
+}
+
+/// The manifold of two convex shapes, whose least gap is known, of the points within the margin of `candidates`, which offers
+/// room.
 fn convex_manifold(
     a: (&Convex, &Pose),
-    b: (&Convex, &Pose),
-    margin: f64,
-    surface: Option<&OnSurface>,
+    beside: &Beside,
+    mut least: Axis,
+    (candidates, surface): (&mut Candidates, Option<&OnSurface>),
 ) -> Option<Manifold> {
-    let (convex_a, convex_b) = (a.0, b.0);
-    let inner = a.1.relative(b.1);
+    let (convex_a, convex_b, inner) = (a.0, beside.convex, &beside.inner);
     let radii = convex_a.radius + convex_b.radius;
-    let mut least = axis::gap_within(&convex_a.core, &convex_b.core, &inner, radii + margin)?;
-    if least.gap - radii > margin {
-        return None;
-    }
     let normal = surface.map_or(least.normal, |surface| (surface.correct)(least.normal));
     let corrected = normal.distance(least.normal) > 1e-9;
     least.normal = normal;
-    let mut candidates = Candidates::new(margin);
-    clip::contacts(convex_a, convex_b, &inner, normal, &mut candidates);
+    candidates.clear();
+    clip::contacts(convex_a, convex_b, inner, normal, candidates);
     let size = convex_a.core.reach().min(convex_b.core.reach()).max(radii);
     // A triangle seen edge-on does not tell on which side of it the other shape is, and what the surface allows may then lead all
     // through that shape. Such a way is none; another triangle has the contact.
     // Nor is one that leads sideways over a border: the normal is then no triangle's own.
     if corrected {
-        let is_own = convex_a.core.flat_directions().into_iter().any(|own| own.dot(normal) > 1.0 - 1e-9);
-        let detour = if is_own { 0.1 } else { 1e-3 };
+        let own = |core: &Core| core.flat_directions().into_iter().any(|own| own.dot(normal) > 1.0 - 1e-9);
+        let detour = if own(&convex_a.core) { 0.1 } else { 1e-3 };
         if candidates.least_separation() < least.gap - radii - detour * size {
             return None;
         }
     }
     if !corrected && candidates.least_separation() > least.gap - radii + 1e-6 * size {
-        least = axis::on_crest(&convex_a.core, &convex_b.core, &inner, least);
-        candidates.push(witness::witness(convex_a, convex_b, &inner, &least));
+        least = axis::on_crest(&convex_a.core, &convex_b.core, inner, least);
+        candidates.push(witness::witness(convex_a, convex_b, inner, &least));
     }
     let normal = least.normal;
     let outer_normal = a.1.rotation * normal;

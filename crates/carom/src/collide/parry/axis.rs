@@ -11,7 +11,7 @@ use parry3d_f64::query::gjk::{self, GJKResult, VoronoiSimplex};
 use parry3d_f64::shape::SupportMap;
 
 /// A direction from `a` to `b` and the gap along it, with the two points where it opens. All in a's frame.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Axis {
     /// Unit length, from `a` to `b`.
     pub normal: DVec3,

@@ -1,6 +1,6 @@
 //! Where two sides face each other: one outline cut to the other, and the best four of the points this leaves.
 
-use super::convex::{CORNERS, Convex, Corner};
+use super::convex::{CORNERS, Convex, Corner, Outline};
 use crate::collide::{ContactPoint, Manifold};
 use crate::math::{DVec3, Pose, any_tangent};
 use crate::report::Feature;
@@ -9,11 +9,19 @@ use crate::report::Feature;
 pub(super) struct Candidates {
     points: Vec<ContactPoint>,
     margin: f64,
+    /// Room for the two sides that face each other, and for an outline before and after a cut.
+    sides: [Outline; 2],
+    cuts: [Vec<Cut>; 2],
 }
 
 impl Candidates {
     pub fn new(margin: f64) -> Self {
-        Self { points: Vec::new(), margin }
+        Self { points: Vec::new(), margin, sides: Default::default(), cuts: Default::default() }
+    }
+
+    /// Room for the points of another manifold within the same margin.
+    pub fn clear(&mut self) {
+        self.points.clear();
     }
 
     pub fn push(&mut self, point: ContactPoint) {
@@ -87,15 +95,28 @@ struct Cut {
 /// *Reentrant Polygon Clipping*, 1974) and offers the corners of what is left, in a's frame. Offers nothing where
 /// the sides pass each other edge on or meet in single points; the axis' own points stand in there.
 pub(super) fn contacts(a: &Convex, b: &Convex, b_in_a: &Pose, normal: DVec3, out: &mut Candidates) {
-    let side_a = a.core.outline(normal);
-    let mut side_b = b.core.outline(b_in_a.rotation.conjugate() * -normal);
-    side_b.corners_mut().iter_mut().for_each(|corner| corner.point = b_in_a.transform_point(corner.point));
+    let mut sides = std::mem::take(&mut out.sides);
+    let mut cuts = std::mem::take(&mut out.cuts);
+    a.core.outline_into(normal, &mut sides[0]);
+    b.core.outline_into(b_in_a.rotation.conjugate() * -normal, &mut sides[1]);
+    sides[1].corners_mut().iter_mut().for_each(|corner| corner.point = b_in_a.transform_point(corner.point));
+    contacts_of_sides((a.radius, &sides[0]), (b.radius, &sides[1]), normal, &mut cuts, out);
+    (out.sides, out.cuts) = (sides, cuts);
+}
+
+fn contacts_of_sides(
+    (radius_a, side_a): (f64, &Outline),
+    (radius_b, side_b): (f64, &Outline),
+    normal: DVec3,
+    [shape, left]: &mut [Vec<Cut>; 2],
+    out: &mut Candidates,
+) {
     let (across, up) = {
         let across = any_tangent(normal);
         (across, normal.cross(across))
     };
     let mut offer = |x: f64, y: f64, heights: (f64, f64), features: (Feature, Feature)| {
-        let (low, high) = (heights.0 + a.radius, heights.1 - b.radius);
+        let (low, high) = (heights.0 + radius_a, heights.1 - radius_b);
         let point = across * x + up * y + normal * (0.5 * (low + high));
         let (feature_a, feature_b) = features;
         out.push(ContactPoint { point, separation: high - low, feature_a, feature_b });
@@ -112,16 +133,18 @@ pub(super) fn contacts(a: &Convex, b: &Convex, b_in_a: &Pose, normal: DVec3, out
     }
     // The knife must have an area; the other may be a segment or a point.
     let b_cuts = corners_b.len() > 2;
-    let (subject, knife) = if b_cuts { (&side_a, &side_b) } else { (&side_b, &side_a) };
+    let (subject, knife) = if b_cuts { (side_a, side_b) } else { (side_b, side_a) };
     let Some(plane) = Knife::new(knife.corners(), flat) else { return };
-    let mut shape: Vec<Cut> = Vec::with_capacity(2 * CORNERS + 2);
+    shape.clear();
     for corner in subject.corners() {
         let (x, y, height) = flat(corner);
         let onward = Side::Own(corner.edge);
         shape.push(Cut { x, y, height, own: corner.vertex, other: knife.face, onward });
     }
     for k in 0..knife.corners().len() {
-        shape = plane.cut(&shape, k, knife.corners(), subject.face);
+        if plane.cut((shape, left), k, knife.corners(), subject.face) {
+            std::mem::swap(shape, left);
+        }
     }
     for cut in shape {
         let height = plane.height(cut.x, cut.y);
@@ -135,7 +158,8 @@ pub(super) fn contacts(a: &Convex, b: &Convex, b_in_a: &Pose, normal: DVec3, out
 
 /// The outline that cuts: its sides in the plane across the normal, its own plane in space.
 struct Knife {
-    places: Vec<(f64, f64)>,
+    places: [(f64, f64); CORNERS],
+    count: usize,
     /// 1 if the sides run anticlockwise seen against the normal, else −1.
     turn: f64,
     /// height = slope·(x, y) + offset.
@@ -151,42 +175,53 @@ impl Knife {
         if corners.len() < 3 {
             return None;
         }
-        let points: Vec<(f64, f64, f64)> = corners.iter().map(flat).collect();
+        let count = corners.len();
+        let mut points = [(0.0, 0.0, 0.0); CORNERS];
+        points.iter_mut().zip(corners).for_each(|(point, corner)| *point = flat(corner));
         let origin = points[0];
         let from_origin = |k: usize| {
             let (x, y, height) = points[k];
             DVec3::new(x - origin.0, y - origin.1, height - origin.2)
         };
         // Twice the area, as a vector (Newell).
-        let area: DVec3 = (1..points.len() - 1).map(|k| from_origin(k).cross(from_origin(k + 1))).sum();
+        let area: DVec3 = (1..count - 1).map(|k| from_origin(k).cross(from_origin(k + 1))).sum();
         if area.z.abs() <= 0.05 * area.length() {
             return None;
         }
         let slope = (-area.x / area.z, -area.y / area.z);
         let offset = origin.2 - slope.0 * origin.0 - slope.1 * origin.1;
-        let extent = (1..points.len()).map(|k| from_origin(k).length()).fold(0.0, f64::max);
-        let places = points.iter().map(|&(x, y, _)| (x, y)).collect();
-        Some(Self { places, turn: area.z.signum(), slope, offset, tolerance: 1e-9 * extent })
+        let extent = (1..count).map(|k| from_origin(k).length()).fold(0.0, f64::max);
+        let places = points.map(|(x, y, _)| (x, y));
+        Some(Self { places, count, turn: area.z.signum(), slope, offset, tolerance: 1e-9 * extent })
     }
 
     fn height(&self, x: f64, y: f64) -> f64 {
         self.slope.0 * x + self.slope.1 * y + self.offset
     }
 
-    /// What of `shape` lies inside the knife's side `k`.
-    fn cut(&self, shape: &[Cut], k: usize, corners: &[Corner], face: Feature) -> Vec<Cut> {
-        let (from, to) = (self.places[k], self.places[(k + 1) % self.places.len()]);
+    /// Leaves what of `shape` lies inside the knife's side `k`; false if that is all of it.
+    fn cut(
+        &self,
+        (shape, left): (&[Cut], &mut Vec<Cut>),
+        k: usize,
+        corners: &[Corner],
+        face: Feature,
+    ) -> bool {
+        let (from, to) = (self.places[k], self.places[(k + 1) % self.count]);
         let (dx, dy) = (to.0 - from.0, to.1 - from.1);
         let length = (dx * dx + dy * dy).sqrt();
         if length == 0.0 {
-            return shape.to_vec();
+            return false;
         }
         let inside = |cut: &Cut| self.turn * (dx * (cut.y - from.1) - dy * (cut.x - from.0)) / length;
-        let mut left = Vec::with_capacity(shape.len() + 1);
+        let keeps = |depth: f64| depth >= -self.tolerance;
+        if shape.iter().all(|cut| keeps(inside(cut))) {
+            return false;
+        }
+        left.clear();
         for (i, here) in shape.iter().enumerate() {
-            let next = &shape[(i + 1) % shape.len()];
+            let next = &shape[if i + 1 < shape.len() { i + 1 } else { 0 }];
             let (depth_here, depth_next) = (inside(here), inside(next));
-            let keeps = |depth: f64| depth >= -self.tolerance;
             if keeps(depth_here) {
                 left.push(*here);
             }
@@ -216,7 +251,7 @@ impl Knife {
                 onward,
             });
         }
-        left
+        true
     }
 }
 

@@ -50,33 +50,33 @@ pub(super) struct Corner {
 
 /// The side of a core that faces some direction: a point, a segment or a flat polygon, anticlockwise from outside.
 pub(super) struct Outline {
-    corners: [Corner; CORNERS],
-    count: usize,
+    corners: Vec<Corner>,
     /// What its inside is.
     pub face: Feature,
 }
 
-impl Outline {
-    fn new(face: Feature) -> Self {
-        let corner = Corner { point: DVec3::ZERO, vertex: Feature::Surface, edge: Feature::Surface };
-        Self { corners: [corner; CORNERS], count: 0, face }
+impl Default for Outline {
+    fn default() -> Self {
+        Self { corners: Vec::new(), face: Feature::Surface }
     }
+}
 
-    fn with(mut self, point: DVec3, vertex: Feature, edge: Feature) -> Self {
-        if self.count < CORNERS {
-            self.corners[self.count] = Corner { point, vertex, edge };
-            self.count += 1;
-        }
-        self
+impl Outline {
+    /// Makes it that of some corners, of [`CORNERS`] at most.
+    fn be(&mut self, face: Feature, corners: impl IntoIterator<Item = (DVec3, Feature, Feature)>) {
+        let corner = |(point, vertex, edge): (DVec3, Feature, Feature)| Corner { point, vertex, edge };
+        self.face = face;
+        self.corners.clear();
+        self.corners.extend(corners.into_iter().take(CORNERS).map(corner));
     }
 
     pub fn corners(&self) -> &[Corner] {
-        &self.corners[..self.count]
+        &self.corners
     }
 
     /// The corners, to be moved to another frame.
     pub fn corners_mut(&mut self) -> &mut [Corner] {
-        &mut self.corners[..self.count]
+        &mut self.corners
     }
 }
 
@@ -176,18 +176,25 @@ impl Core<'_> {
 
     /// The side that faces the unit vector `direction`.
     pub fn outline(&self, direction: DVec3) -> Outline {
+        let mut outline = Outline::default();
+        self.outline_into(direction, &mut outline);
+        outline
+    }
+
+    /// The same, in the room of another one.
+    pub fn outline_into(&self, direction: DVec3, outline: &mut Outline) {
         let smooth = Feature::Surface;
-        let segment = |low: DVec3, high: DVec3| {
-            Outline::new(smooth).with(low, smooth, smooth).with(high, smooth, smooth)
+        let mut segment = |low: DVec3, high: DVec3| {
+            outline.be(smooth, [(low, smooth, smooth), (high, smooth, smooth)]);
         };
         let on_axis = |y: f64| DVec3::new(0.0, y, 0.0);
         match *self {
-            Core::Point => Outline::new(smooth).with(DVec3::ZERO, smooth, smooth),
+            Core::Point => outline.be(smooth, [(DVec3::ZERO, smooth, smooth)]),
             Core::Segment { half } => segment(on_axis(-half), on_axis(half)),
             Core::Balls { half, bottom, top } => {
                 segment(on_axis(-half) + direction * bottom, on_axis(half) + direction * top)
             }
-            Core::Cuboid { half } => cuboid_side(half, direction),
+            Core::Cuboid { half } => cuboid_side(half, direction, outline),
             Core::Frustum { half, bottom, top } => {
                 let radial = DVec3::new(direction.x, 0.0, direction.z);
                 let (out, height) = (radial.normalize_or_zero(), 2.0 * half);
@@ -196,28 +203,30 @@ impl Core<'_> {
                 let along_side = slant.x * radial.length() + slant.y * direction.y;
                 let (up, down) = (direction.y, -direction.y);
                 if top > 0.0 && up >= along_side && up >= down {
-                    disc(half, top, 1)
+                    disc(half, top, 1, outline);
                 } else if bottom > 0.0 && down >= along_side {
-                    disc(-half, bottom, 0)
+                    disc(-half, bottom, 0, outline);
                 } else {
-                    segment(on_axis(-half) + out * bottom, on_axis(half) + out * top)
+                    segment(on_axis(-half) + out * bottom, on_axis(half) + out * top);
                 }
             }
             Core::Hull(hull) => {
                 let (face, corners) = hull.face_towards(direction);
                 let count = corners.len();
                 let kept = count.min(CORNERS);
-                (0..kept).fold(Outline::new(Feature::Face(face)), |outline, k| {
+                let corner = |k: usize| {
                     let (here, next) = (corners[k * count / kept], corners[(k + 1) * count / kept % count]);
                     let edge = Feature::Edge(hull.edge_number(here, next));
-                    outline.with(hull.vertices()[here as usize], Feature::Vertex(here), edge)
-                })
+                    (hull.vertices()[here as usize], Feature::Vertex(here), edge)
+                };
+                outline.be(Feature::Face(face), (0..kept).map(corner));
             }
             Core::Triangle { corners, index, vertices } => {
-                (0..3).fold(Outline::new(Feature::Face(index)), |outline, k| {
+                let corner = |k: usize| {
                     let edge = index.wrapping_mul(3).wrapping_add(k as u32);
-                    outline.with(corners[k], Feature::Vertex(vertices[k]), Feature::Edge(edge))
-                })
+                    (corners[k], Feature::Vertex(vertices[k]), Feature::Edge(edge))
+                };
+                outline.be(Feature::Face(index), (0..3).map(corner));
             }
         }
     }
@@ -225,7 +234,7 @@ impl Core<'_> {
 
 /// The face of a box that faces `direction`, numbered as [`Feature`] says; the edge along an axis is 4 times the
 /// axis, plus 1 and 2 where it lies on the positive side of the first and second of the other axes.
-fn cuboid_side(half: DVec3, direction: DVec3) -> Outline {
+fn cuboid_side(half: DVec3, direction: DVec3, outline: &mut Outline) {
     let size = direction.abs();
     let axis = if size.x >= size.y && size.x >= size.z { 0 } else { 1 + usize::from(size.z > size.y) };
     let positive = direction[axis] > 0.0;
@@ -237,26 +246,28 @@ fn cuboid_side(half: DVec3, direction: DVec3) -> Outline {
     }
     let bit = |corner: u32, axis: usize| corner >> axis & 1;
     let face = Feature::Face(2 * axis as u32 + u32::from(positive));
-    (0..4).fold(Outline::new(face), |outline, k| {
+    let corner = |k: usize| {
         let (here, next) = (ring[k], ring[(k + 1) % 4]);
         let along = (here ^ next).trailing_zeros() as usize % 3;
         let (first, second) = [(1, 2), (0, 2), (0, 1)][along];
         let edge = 4 * along as u32 + bit(here, first) + 2 * bit(here, second);
         let side = |axis: usize| if bit(here, axis) == 1 { half[axis] } else { -half[axis] };
-        outline.with(DVec3::new(side(0), side(1), side(2)), Feature::Vertex(here), Feature::Edge(edge))
-    })
+        (DVec3::new(side(0), side(1), side(2)), Feature::Vertex(here), Feature::Edge(edge))
+    };
+    outline.be(face, (0..4).map(corner));
 }
 
 /// A disc across y as a polygon of [`RIM`] corners that stand still in the shape's frame, so that they are the same ones
 /// from step to step. Numbered from 0 below (`number` 0) and from [`RIM`] above (`number` 1).
-fn disc(y: f64, radius: f64, number: u32) -> Outline {
+fn disc(y: f64, radius: f64, number: u32, outline: &mut Outline) {
     static TURNS: LazyLock<[(f64, f64); RIM]> =
         LazyLock::new(|| std::array::from_fn(|k| sin_cos(k as f64 * (TAU / RIM as f64))));
-    (0..RIM).fold(Outline::new(Feature::Face(number)), |outline, k| {
+    let corner = |k: usize| {
         // Anticlockwise from outside: from z to x seen from above, the other way from below.
         let (sine, cosine) = TURNS[if number == 1 { k } else { RIM - 1 - k }];
         let name = number * RIM as u32 + k as u32;
         let point = DVec3::new(radius * sine, y, radius * cosine);
-        outline.with(point, Feature::Vertex(name), Feature::Edge(name))
-    })
+        (point, Feature::Vertex(name), Feature::Edge(name))
+    };
+    outline.be(Feature::Face(number), (0..RIM).map(corner));
 }

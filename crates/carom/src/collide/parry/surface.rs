@@ -1,14 +1,15 @@
 //! Meshes and height fields: every triangle near the other shape is a convex core of its own.
 
+use super::axis::Axis;
 use super::clip::Candidates;
 use super::convex::{Convex, Core};
+use super::facet::Form;
 use super::triangles::{Triangles, triangles_of};
-use super::{OnSurface, axis, convex_manifold};
+use super::{Beside, OnSurface, axis, convex_manifold};
 use crate::collide::{ContactPoint, Manifold};
 use crate::math::{DVec3, Pose};
 use crate::report::Feature;
 use crate::shape::Shape;
-use std::cell::Cell;
 
 pub(super) fn triangle_core(surface: &dyn Triangles, index: u32) -> Convex<'static> {
     let (corners, vertices) = (surface.corners(index), surface.corner_numbers(index));
@@ -22,40 +23,36 @@ fn nearby(surface: &dyn Triangles, low: DVec3, high: DVec3, margin: f64) -> Vec<
 }
 
 /// A gap (m) between a triangle and a convex shape that their distance is no less than: the widest along a few
-/// directions, at the price of a few support points. `inner` is the other's pose in the surface's frame.
-fn gap_at_least(triangle: &Convex, convex: &Convex, inner: &Pose) -> f64 {
-    let Core::Triangle { corners: [a, b, c], .. } = triangle.core else { return f64::NEG_INFINITY };
-    let middle = inner.transform_point(convex.core.middle());
-    let across = (b - a).cross(c - a).normalize_or_zero();
-    let own = if across.dot(middle - a) < 0.0 { -across } else { across };
-    let towards = (middle - closest_point([a, b, c], middle)).normalize_or_zero();
-    let gap = |normal: DVec3| match normal == DVec3::ZERO {
-        true => f64::NEG_INFINITY,
-        false => axis::along(&triangle.core, &convex.core, inner, normal).gap,
+/// directions, at the price of a few support points.
+fn gap_at_least(surface: &dyn Triangles, index: u32, beside: &Beside) -> f64 {
+    let Some(facet) = surface.facet(index) else { return f64::NEG_INFINITY };
+    let gap = match beside.form {
+        Some(form) => facet.gap_at_least(form),
+        None => {
+            let triangle = triangle_core(surface, index);
+            let middle = beside.inner.transform_point(beside.convex.core.middle());
+            let gap = |way: DVec3| axis::along(&triangle.core, &beside.convex.core, &beside.inner, way).gap;
+            facet.ways_to(middle).into_iter().flatten().map(gap).fold(f64::NEG_INFINITY, f64::max)
+        }
     };
-    gap(own).max(gap(towards)) - convex.radius
+    gap - beside.convex.radius
 }
 
-/// The triangle's point closest to `point`.
-fn closest_point(corners: [DVec3; 3], point: DVec3) -> DVec3 {
-    let [a, b, c] = corners;
-    let across = (b - a).cross(c - a);
-    let beyond = |side: usize| {
-        let (from, to) = (corners[side], corners[(side + 1) % 3]);
-        (to - from).cross(point - from).dot(across) < 0.0
-    };
-    if !(0..3).any(beyond) {
-        return point - across * ((point - a).dot(across) / across.length_squared());
+/// The axis of the largest gap between a triangle and the core of a convex shape, if that shape comes within `margin`.
+fn gap_within(surface: &dyn Triangles, index: u32, beside: &Beside, margin: f64) -> Option<Axis> {
+    let radius = beside.convex.radius;
+    match beside.form.and_then(|form| Some((form, surface.facet(index)?))) {
+        Some((form, facet)) => {
+            facet.gap_within(form, radius + margin).filter(|axis| axis.gap - radius <= margin)
+        }
+        None => {
+            // Rounding must not turn away what is just near enough.
+            let slack = 1e-9 * (beside.convex.core.reach() + radius);
+            let is_far = margin < f64::MAX && gap_at_least(surface, index, beside) > margin + slack;
+            let found = || beside.gap_within(&triangle_core(surface, index).core, 0.0, margin);
+            if is_far { None } else { found() }
+        }
     }
-    let on_side = |side: usize| {
-        let (from, to) = (corners[side], corners[(side + 1) % 3]);
-        let part = (point - from).dot(to - from) / (to - from).length_squared();
-        from + (to - from) * part.clamp(0.0, 1.0)
-    };
-    let nearer = |one: DVec3, other: DVec3| {
-        if other.distance_squared(point) < one.distance_squared(point) { other } else { one }
-    };
-    nearer(nearer(on_side(0), on_side(1)), on_side(2))
 }
 
 /// The least separation of any triangle from `other`, which is no plane.
@@ -67,7 +64,7 @@ pub(super) fn separation(surface: &dyn Triangles, pose: &Pose, other: &Shape, ot
     let extent = (high - low).max_element();
     // What is not found by a search is farther off than its horizon. Mostly the other is close, and a short look will do.
     let mut farthest = boxes_apart;
-    for horizon in [extent / 256.0, extent / 32.0, extent / 4.0] {
+    for horizon in [extent / 32.0, extent / 4.0] {
         if boxes_apart >= horizon {
             continue;
         }
@@ -90,14 +87,21 @@ fn separation_within(
     let near = nearby(surface, low, high, horizon);
     let inner = pose.relative(other_pose);
     match (Convex::of(other), triangles_of(other)) {
-        (Some(convex), _) => least_separation(surface, near, &convex, &inner, horizon),
+        (Some(convex), _) => Form::with(&convex.core, &inner, |form| {
+            least_separation(surface, near, &Beside { convex: &convex, inner, form }, horizon)
+        }),
         (None, Some(other)) => {
             let turned = other_pose.relative(pose);
             near.into_iter().fold(horizon, |least, index| {
                 let triangle = triangle_core(surface, index);
                 let (low, high) = triangle_bounds(surface, index, &turned);
                 let found = nearby(other, low, high, least.min(horizon));
-                least_separation(other, found, &triangle, &turned, least)
+                least_separation(
+                    other,
+                    found,
+                    &Beside { convex: &triangle, inner: turned, form: None },
+                    least,
+                )
             })
         }
         (None, None) => horizon,
@@ -106,26 +110,18 @@ fn separation_within(
 
 /// The least separation of the triangles `near` from a convex shape, if it is below `least`. What is sure to be no
 /// closer than something else is not measured: likely ones go first.
-fn least_separation(
-    surface: &dyn Triangles,
-    near: Vec<u32>,
-    convex: &Convex,
-    inner: &Pose,
-    least: f64,
-) -> f64 {
-    let bound = |index: u32| gap_at_least(&triangle_core(surface, index), convex, inner);
+fn least_separation(surface: &dyn Triangles, near: Vec<u32>, beside: &Beside, least: f64) -> f64 {
+    let bound = |index: u32| gap_at_least(surface, index, beside);
     let mut queue: Vec<(f64, u32)> = near.into_iter().map(|index| (bound(index), index)).collect();
     queue.sort_unstable_by(|one, other| one.0.total_cmp(&other.0).then(one.1.cmp(&other.1)));
-    let mut least = least;
+    let (mut least, radius) = (least, beside.convex.radius);
     for (bound, index) in queue {
         // Of those that overlap the shortest way out is known only once it is measured.
         if bound > least.max(0.0) {
             break;
         }
-        let triangle = triangle_core(surface, index);
-        let limit = least.max(0.0) + convex.radius;
-        if let Some(axis) = axis::gap_within(&triangle.core, &convex.core, inner, limit) {
-            least = least.min(axis.gap - convex.radius);
+        if let Some(axis) = gap_within(surface, index, beside, least.max(0.0)) {
+            least = least.min(axis.gap - radius);
         }
     }
     least
@@ -142,7 +138,18 @@ pub(super) fn manifolds(
     let (low, high) = other.0.bounds(&pose.relative(other.1));
     let near = nearby(surface, low, high, margin);
     match (Convex::of(other.0), triangles_of(other.0)) {
-        (Some(convex), _) => convex_manifolds((surface, pose), (&convex, other.1), &near, margin, out),
+        (Some(convex), _) => {
+            let inner = pose.relative(other.1);
+            Form::with(&convex.core, &inner, |form| {
+                convex_manifolds(
+                    (surface, pose),
+                    &Beside { convex: &convex, inner, form },
+                    &near,
+                    margin,
+                    out,
+                );
+            });
+        }
         (None, Some(other_surface)) => {
             surface_manifolds((surface, pose), (other_surface, other.1), &near, margin, out);
         }
@@ -156,43 +163,33 @@ pub(super) fn manifolds(
 /// that is deepest in has it along its own shortest way out.
 fn convex_manifolds(
     (surface, pose): (&dyn Triangles, &Pose),
-    (convex, other_pose): (&Convex, &Pose),
+    beside: &Beside,
     near: &[u32],
     margin: f64,
     out: &mut Vec<Manifold>,
 ) {
     let first = out.len();
-    let inner = pose.relative(other_pose);
-    let middle = inner.transform_point(convex.core.middle());
-    // Rounding must not turn away what is just near enough.
-    let slack = 1e-9 * (convex.core.reach() + convex.radius);
-    let mut touched = Vec::new();
+    let convex = beside.convex;
+    let middle = beside.inner.transform_point(convex.core.middle());
+    let mut touched: Option<(Axis, u32)> = None;
+    let mut candidates = Candidates::new(margin);
     for &index in near {
+        let Some(axis) = gap_within(surface, index, beside, margin) else { continue };
+        if touched.is_none_or(|(least, _)| axis.gap < least.gap) {
+            touched = Some((axis, index));
+        }
         let triangle = triangle_core(surface, index);
-        if gap_at_least(&triangle, convex, &inner) > margin + slack {
-            continue;
-        }
-        // Whoever asks for the normal has found the two within the margin.
-        let touches = Cell::new(false);
-        let correct = |normal: DVec3| {
-            touches.set(true);
-            surface_normal(surface, index, normal, middle)
-        };
+        let correct = |normal: DVec3| surface_normal(surface, index, normal, middle);
         let around = OnSurface { correct: &correct, known: &out[first..] };
-        let found = convex_manifold((&triangle, pose), (convex, other_pose), margin, Some(&around));
+        let found = convex_manifold((&triangle, pose), beside, axis, (&mut candidates, Some(&around)));
         out.extend(found);
-        if touches.get() {
-            touched.push(index);
-        }
     }
     if out.len() > first {
         return;
     }
-    let gap = |index: u32| axis::least_gap(&triangle_core(surface, index).core, &convex.core, &inner).gap;
-    let gaps = touched.into_iter().map(|index| (gap(index), index));
-    if let Some((_, deepest)) = gaps.min_by(|one, other| one.0.total_cmp(&other.0)) {
+    if let Some((axis, deepest)) = touched {
         let triangle = triangle_core(surface, deepest);
-        out.extend(convex_manifold((&triangle, pose), (convex, other_pose), margin, None));
+        out.extend(convex_manifold((&triangle, pose), beside, axis, (&mut candidates, None)));
     }
 }
 
@@ -206,14 +203,16 @@ fn surface_manifolds(
 ) {
     let first = out.len();
     let turned = other_pose.relative(pose);
+    let mut candidates = Candidates::new(margin);
     for &index in near {
         let triangle = triangle_core(surface, index);
         let (low, high) = triangle_bounds(surface, index, &turned);
         for other_index in nearby(other, low, high, margin) {
             let other_triangle = triangle_core(other, other_index);
             let around = OnSurface { correct: &|normal| normal, known: &out[first..] };
-            let found =
-                convex_manifold((&triangle, pose), (&other_triangle, other_pose), margin, Some(&around));
+            let beside = Beside { convex: &other_triangle, inner: pose.relative(other_pose), form: None };
+            let Some(axis) = beside.gap_within(&triangle.core, 0.0, margin) else { continue };
+            let found = convex_manifold((&triangle, pose), &beside, axis, (&mut candidates, Some(&around)));
             out.extend(found);
         }
     }

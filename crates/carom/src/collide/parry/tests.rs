@@ -487,8 +487,7 @@ fn what_a_mesh_leaves_unmeasured_changes_nothing() {
         let gaps: Vec<f64> = (0..mesh.triangles().len() as u32)
             .map(|index| {
                 let (corners, vertices) = (mesh.corners(index), mesh.triangles()[index as usize]);
-                axis::least_gap(&convex::Core::Triangle { corners, index, vertices }, &convex.core, &inner)
-                    .gap
+                axis::least_gap(&Core::Triangle { corners, index, vertices }, &convex.core, &inner).gap
             })
             .collect();
         let least = gaps.iter().copied().fold(f64::INFINITY, f64::min);

@@ -1,5 +1,6 @@
 //! What a mesh and a height field have in common: a set of triangles that can be searched.
 
+use super::facet::Facet;
 use crate::height_field::HeightField;
 use crate::math::DVec3;
 use crate::mesh::Mesh;
@@ -16,6 +17,11 @@ pub(super) trait Triangles {
 
     /// The corners of a triangle, m.
     fn corners(&self, triangle: u32) -> [DVec3; 3];
+
+    /// A triangle for its kernels; none where rounding leaves no direction at right angles to it.
+    fn facet(&self, triangle: u32) -> Option<Facet> {
+        Facet::new(self.corners(triangle))
+    }
 
     /// The numbers of its corners.
     fn corner_numbers(&self, triangle: u32) -> [u32; 3];
@@ -42,20 +48,19 @@ impl Triangles for Mesh {
     }
 
     fn within(&self, low: DVec3, high: DVec3) -> Vec<u32> {
-        let has_area = |index: u32| {
-            let [a, b, c] = self.corners(index);
-            (b - a).cross(c - a) != DVec3::ZERO
-        };
         let search = Aabb::new(low, high);
-        let leaves = self.tree().intersect_aabb(&search);
         let mut found: Vec<u32> =
-            leaves.filter(|&index| (index as usize) < self.triangles().len() && has_area(index)).collect();
+            self.tree().intersect_aabb(&search).filter(|&index| self.has_area(index)).collect();
         found.sort_unstable();
         found
     }
 
     fn corners(&self, triangle: u32) -> [DVec3; 3] {
         self.corners(triangle)
+    }
+
+    fn facet(&self, triangle: u32) -> Option<Facet> {
+        Facet::with_normal(self.corners(triangle), self.normal(triangle))
     }
 
     fn corner_numbers(&self, triangle: u32) -> [u32; 3] {
