@@ -182,12 +182,12 @@ const THREADS: [u32; 3] = [1, 2, 4];
 
 /// The hashes of states and events of [pile, mesh, gas, cradle, stack, crowd].
 const EXPECTED: [[u64; 2]; 6] = [
-    [0x3c04_4ae4_7f3f_7d33, 0x3653_d05b_e9da_3c41],
-    [0x7f3d_1ba0_5f38_cace, 0x854c_d952_c43f_f330],
-    [0x82e7_4950_5da6_dd2e, 0xcf19_842b_7889_4af9],
+    [0x02fd_238c_b657_aa07, 0x9202_e28e_f3d4_a168],
+    [0xd89e_ccda_9c9c_e05c, 0xcaaa_1275_05ca_52ce],
+    [0xb7c9_a597_8de9_22c8, 0x12d9_d339_e94d_7830],
     [0xc1e1_fd04_731e_91a0, 0xf840_eec8_201f_e158],
-    [0x799d_2f88_2cbd_60eb, 0xf3ec_1938_f169_673a],
-    [0x3936_033c_d09e_463d, 0x7f0f_5b74_2635_9ec8],
+    [0x272f_60bd_c672_5035, 0xed12_20bc_eb21_b9ff],
+    [0xc869_8d64_84f0_3097, 0x4754_70c0_e99a_3f3f],
 ];
 
 #[test]

@@ -15,7 +15,8 @@ mod agenda;
 
 use crate::bodies::{Bodies, WORLD_ROW};
 use crate::impacts::instant::Instant;
-use crate::impacts::time_of_impact::{Approach, RestLaw, Touch};
+use crate::impacts::time_of_impact::{Approach, RestLaw, Touch, outlook};
+use crate::ledger::contacts::settle;
 use crate::report::Impact;
 use crate::step::broad_phase::{BroadPhase, order};
 use crate::step::motion::{advance, rouse, set_pace};
@@ -40,6 +41,8 @@ struct Answer {
     until: f64,
     /// Its separation when it was asked, if somebody had to look, m.
     separation: Option<f64>,
+    /// How far apart it stays until then, and is then, as far as that is known, m.
+    apart: [f64; 2],
     /// When it touches, if it does.
     instant: Option<f64>,
 }
@@ -71,14 +74,20 @@ impl<'a> Events<'a> {
     ) -> Self {
         agenda.clear(bodies.states.len());
         pairs.begin_watch(bodies, (law.step, law.contact_margin()));
-        Self { bodies, broad_phase, pairs, rest, law, agenda, impacts: Vec::new(), rounds: 0 }
+        let impacts = Vec::with_capacity(agenda.impacts);
+        Self { bodies, broad_phase, pairs, rest, law, agenda, impacts, rounds: 0 }
     }
 
     /// Lets a substep pass: contacts hold what rests, then touch comes after touch.
     pub fn substep(&mut self, span: Span) {
         self.pairs.watch_again(self.bodies, self.agenda.rerouted.drain(..), self.law.step);
         self.rest.adopt(self.bodies, self.pairs, self.law, span);
-        let renewed = self.rest.hold(self.bodies, self.pairs, self.law, span);
+        let renewed = if self.is_anything_held() {
+            self.rest.hold(self.bodies, self.pairs, self.law, span)
+        } else {
+            settle(self.bodies);
+            Vec::new()
+        };
         for &row in &renewed {
             self.claim_anew(row, span.from);
             self.agenda.is_renewed[row] = true;
@@ -95,6 +104,11 @@ impl<'a> Events<'a> {
                 self.touch(event.pair, Span { from: event.time, ..span });
             }
         }
+    }
+
+    /// Whether contacts decide how any body moves.
+    fn is_anything_held(&self) -> bool {
+        self.bodies.rows().any(|row| self.rest.is_held(row))
     }
 
     /// Asks the pairs that nobody has asked for this long, or whose bodies have got new paths since.
@@ -123,6 +137,8 @@ impl<'a> Events<'a> {
 
     /// All that has happened, each impact with its time within the step.
     pub fn finish(self) -> Vec<Impact> {
+        self.pairs.end_step(self.bodies, self.law.step);
+        self.agenda.impacts = self.impacts.len();
         self.impacts
     }
 
@@ -137,15 +153,24 @@ impl<'a> Events<'a> {
         let pair = &self.pairs[index];
         let is_held = pair.rows.into_iter().any(|row| self.rest.is_held(row));
         let until = if is_held { span.until } else { self.law.step };
-        let mut answer = Answer { until, separation: None, instant: None };
+        let mut answer = Answer { until, separation: None, apart: [f64::NEG_INFINITY; 2], instant: None };
         let may_touch = if pair.rests {
             self.rest.is_driven(self.bodies, pair, self.law, span)
         } else {
             pair.least_separation(self.bodies, until) <= pair.tolerance
         };
-        let Some(approach) = Approach::of(self.bodies, pair.colliders, self.law).filter(|_| may_touch) else {
+        if !may_touch {
             return answer;
-        };
+        }
+        if !pair.rests
+            && !pair.sensor
+            && let Some(outlook) = outlook(self.bodies, pair.colliders, (span.from, until), pair.tolerance)
+        {
+            let instant = outlook.touch.map(|wait| span.from + wait);
+            let apart = [outlook.least, outlook.end];
+            return Answer { until, separation: Some(outlook.separation), apart, instant };
+        }
+        let Some(approach) = Approach::of(self.bodies, pair.colliders, self.law) else { return answer };
         if pair.rests {
             let kept = self.rest.kept(self.bodies, pair, (self.law, span.from));
             answer.instant = approach.next_touch(self.pairs, span.from, until, Some(kept));
@@ -165,8 +190,9 @@ impl<'a> Events<'a> {
     }
 
     /// Notes what a pair has answered.
-    fn note(&mut self, index: usize, Answer { until, separation, instant }: Answer, span: Span) {
+    fn note(&mut self, index: usize, Answer { until, separation, apart, instant }: Answer, span: Span) {
         let pair = &mut self.pairs[index];
+        (pair.now.apart, pair.now.courses) = (apart, pair.rows.map(|row| self.bodies.courses[row]));
         pair.now.stamp += 1;
         (pair.now.asked_from, pair.now.asked_until) = (span.from, until);
         if let Some(separation) = separation {
@@ -233,6 +259,10 @@ impl<'a> Events<'a> {
                 self.rest.take(self.bodies, self.pairs, pair, (self.law, span));
             }
         }
+        for &row in &outcome.rows {
+            let until = if self.rest.is_held(row) { span.until } else { self.law.step };
+            set_pace(self.bodies, row, until);
+        }
         for row in outcome.rows {
             self.reroute(row, span);
         }
@@ -263,8 +293,6 @@ impl<'a> Events<'a> {
         if row == WORLD_ROW {
             return;
         }
-        let until = if self.rest.is_held(row) { span.until } else { self.law.step };
-        set_pace(self.bodies, row, until);
         self.agenda.rerouted.push(row);
         self.claim_anew(row, span.from);
         for number in 0..self.pairs.count_of_row(row) {
