@@ -149,6 +149,10 @@ pub(crate) struct Bodies {
     pub grains: Vec<f64>,
     /// Bounds of its speeds (m/s, rad/s) on its present path.
     pub paces: Vec<(f64, f64)>,
+    /// Counts its paths.
+    pub courses: Vec<u32>,
+    /// Whether it sleeps.
+    sleeps: Vec<bool>,
     /// Forces of contacts that persist on a body's present path.
     pub plans: Vec<Option<Plan>>,
     /// What is noted for the ledger, if there is one.
@@ -173,6 +177,8 @@ impl Bodies {
             ways: vec![(0.0, 0.0)],
             grains: vec![f64::INFINITY],
             paces: vec![(0.0, 0.0)],
+            courses: vec![0],
+            sleeps: vec![false],
             plans: vec![None],
             journal: None,
             forces: vec![(DVec3::ZERO, DVec3::ZERO)],
@@ -249,6 +255,8 @@ impl Bodies {
             |collider: &Collider| collider.shape.reach(collider.pose.inverse_transform_point(mass.center));
         self.grains.push(description.colliders.iter().map(reach).fold(f64::INFINITY, f64::min));
         self.paces.push((0.0, 0.0));
+        self.courses.push(0);
+        self.sleeps.push(false);
         self.plans.push(None);
         self.forces.push((DVec3::ZERO, DVec3::ZERO));
         self.slot_of_row.push(slot);
@@ -313,6 +321,8 @@ impl Bodies {
         self.ways.swap_remove(row);
         self.grains.swap_remove(row);
         self.paces.swap_remove(row);
+        self.courses.swap_remove(row);
+        self.sleeps.swap_remove(row);
         self.plans.swap_remove(row);
         if let Some(journal) = &mut self.journal {
             journal.swap_remove(row);
@@ -375,12 +385,14 @@ impl Bodies {
         1..self.states.len()
     }
 
+    #[inline]
     pub fn collider(&self, key: u32) -> Option<&ColliderRow> {
         self.colliders.get(key as usize)?.as_ref()
     }
 
     /// How far (m, rad) the body's path has led by `time` within the step, at least: grows with time, and two times on the
     /// same path differ by no less than how far any point has moved.
+    #[inline]
     pub fn way(&self, row: usize, time: f64) -> (f64, f64) {
         let (way, pace) = (self.ways[row], self.paces[row]);
         let flown = time - self.clocks[row];
@@ -388,6 +400,7 @@ impl Bodies {
     }
 
     /// Where the centre of mass of a collider's body is now.
+    #[inline]
     pub fn center_pose(&self, collider: &ColliderRow) -> Pose {
         if collider.row == WORLD_ROW {
             return self.record(collider.slot).map_or(Pose::IDENTITY, |record| record.fixed_pose);
@@ -401,8 +414,10 @@ impl Bodies {
         let state = self.states[row];
         let angular = self.constants[row].angular_velocity(&state);
         let Some(record) = self.slots[self.slot_of_row[row] as usize].record.as_mut() else { return };
+        let center = record.mass.center;
+        let offset = if center == DVec3::ZERO { center } else { state.rotation * center };
         record.state = BodyState {
-            position: state.position - state.rotation * record.mass.center,
+            position: state.position - offset,
             rotation: state.rotation.as_quat(),
             linear_velocity: state.velocity.as_vec3(),
             angular_velocity: angular.as_vec3(),
@@ -453,18 +468,22 @@ impl Bodies {
     }
 
     fn set_activity(&mut self, row: usize, from: Activity, to: Activity) -> bool {
+        if row == WORLD_ROW || self.sleeps[row] != (from == Activity::Asleep) {
+            return false;
+        }
         let slot = self.slot_of_row.get(row).and_then(|&slot| self.slots.get_mut(slot as usize));
         let Some(record) = slot.and_then(|slot| slot.record.as_mut()) else { return false };
         let changes = record.activity == from;
         if changes {
             record.activity = to;
             record.state.asleep = to == Activity::Asleep;
+            self.sleeps[row] = record.state.asleep;
         }
         changes
     }
 
+    #[inline]
     pub fn is_asleep(&self, row: usize) -> bool {
-        row != WORLD_ROW
-            && self.record(self.slot_of_row[row]).is_some_and(|record| record.activity == Activity::Asleep)
+        self.sleeps[row]
     }
 }

@@ -49,11 +49,12 @@ impl RigidState {
         angular_momentum: DVec3::ZERO,
     };
 
+    #[inline]
     pub fn is_finite(&self) -> bool {
-        self.position.is_finite()
-            && self.rotation.is_finite()
-            && self.velocity.is_finite()
-            && self.angular_momentum.is_finite()
+        // Zero times what is not finite is not a number.
+        let vectors = self.position * 0.0 + self.velocity * 0.0 + self.angular_momentum * 0.0;
+        let rotation = self.rotation * 0.0;
+        vectors == DVec3::ZERO && rotation.length_squared() == 0.0
     }
 }
 
@@ -105,6 +106,13 @@ impl Rotor {
         Self { inverse_moments: a, principal: mass.principal_rotation, rest_axis, top_axis }
     }
 
+    /// Whether it turns about all axes alike: a ball, a cube.
+    #[inline]
+    fn is_isotropic(&self) -> bool {
+        let inverse = self.inverse_moments;
+        inverse.x == inverse.y && inverse.y == inverse.z
+    }
+
     fn common(&self) -> f64 {
         self.inverse_moments[3 - self.rest_axis - self.top_axis]
     }
@@ -139,23 +147,39 @@ impl Constants {
     }
 
     /// Whether an impulse can change how the body moves.
+    #[inline]
     pub fn is_movable(&self) -> bool {
         self.inverse_mass > 0.0 || self.rotor.inverse_moments != DVec3::ZERO
     }
 
     /// The inverse inertia tensor in the world, 1/(kg·m²).
     pub fn inverse_inertia(&self, rotation: DQuat) -> DMat3 {
-        rotated_diagonal(rotation * self.rotor.principal, self.rotor.inverse_moments)
+        let inverse_moments = self.rotor.inverse_moments;
+        if self.rotor.is_isotropic() {
+            return DMat3::from_diagonal(inverse_moments);
+        }
+        rotated_diagonal(rotation * self.rotor.principal, inverse_moments)
     }
 
     /// The inertia tensor in the world, kg·m², zero on axes of infinite inertia.
     pub fn inertia(&self, rotation: DQuat) -> DMat3 {
         let moments = self.rotor.inverse_moments.map(|a| if a > 0.0 { 1.0 / a } else { 0.0 });
+        if self.rotor.is_isotropic() {
+            return DMat3::from_diagonal(moments);
+        }
         rotated_diagonal(rotation * self.rotor.principal, moments)
     }
 
     /// `ω = R I⁻¹Rᵀ L`, with the driven spin where the inertia is infinite; rad/s.
+    #[inline]
     pub fn angular_velocity(&self, state: &RigidState) -> DVec3 {
+        if self.driven_spin == DVec3::ZERO && self.rotor.is_isotropic() {
+            return state.angular_momentum * self.rotor.inverse_moments.x;
+        }
+        self.anisotropic_velocity(state)
+    }
+
+    fn anisotropic_velocity(&self, state: &RigidState) -> DVec3 {
         let axes = state.rotation * self.rotor.principal;
         axes * ((axes.conjugate() * state.angular_momentum) * self.rotor.inverse_moments + self.driven_spin)
     }
@@ -178,7 +202,7 @@ impl Constants {
     /// Those of several angular momenta at one orientation.
     pub fn free_spins<const N: usize>(&self, rotation: DQuat, momenta: [DVec3; N]) -> [DVec3; N] {
         let inverse = self.rotor.inverse_moments;
-        if inverse.x == inverse.y && inverse.y == inverse.z {
+        if self.rotor.is_isotropic() {
             return momenta.map(|momentum| momentum * inverse.x);
         }
         let axes = DMat3::from_quat(rotation * self.rotor.principal);
@@ -200,10 +224,32 @@ impl Constants {
         axes * DVec3::select(finite, axes.conjugate() * impulse, DVec3::ZERO)
     }
 
+    /// Whether a body with this angular momentum turns.
+    #[inline]
+    fn spins(&self, momentum: DVec3) -> bool {
+        momentum != DVec3::ZERO || self.driven_spin != DVec3::ZERO
+    }
+
+    /// Whether the body only drifts along: nothing but its position changes.
+    #[inline]
+    pub fn drifts(&self, state: &RigidState, influence: &Influence) -> bool {
+        !self.spins(state.angular_momentum)
+            && *influence == Influence::default()
+            && self.linear_damping == 0.0
+    }
+
     /// A speed of turning (rad/s) that the body does not exceed within `time` seconds.
     ///
     /// While it turns freely `ω² ≤ 2E·a_max` (from `2E = ω·Iω`) and `ω ≤ a_max·|L|`; a torque adds `a_max·|T|` a second.
+    #[inline]
     pub fn spin_limit(&self, state: &RigidState, influence: &Influence, time: f64) -> f64 {
+        if !self.spins(state.angular_momentum) && influence.torque == DVec3::ZERO {
+            return 0.0;
+        }
+        self.spin_limit_of_turning(state, influence, time)
+    }
+
+    fn spin_limit_of_turning(&self, state: &RigidState, influence: &Influence, time: f64) -> f64 {
         let largest = self.rotor.inverse_moments.max_element();
         let turning = self.angular_velocity(state);
         let free = (largest * turning.dot(state.angular_momentum).max(0.0)).sqrt();
@@ -214,6 +260,7 @@ impl Constants {
 }
 
 /// The state after `time` seconds of flight.
+#[inline]
 pub(crate) fn fly(state: &RigidState, constants: &Constants, influence: &Influence, time: f64) -> RigidState {
     if time <= 0.0 {
         return *state;
@@ -223,7 +270,11 @@ pub(crate) fn fly(state: &RigidState, constants: &Constants, influence: &Influen
     let momentum = fault::spin(state.angular_momentum) + kick;
     let decay = decay_fraction(constants.angular_damping * time);
     let turning_time = time * decay;
-    let rotation = turn(state.rotation, momentum, constants, turning_time);
+    let rotation = if constants.spins(momentum) {
+        turn(state.rotation, momentum, constants, turning_time)
+    } else {
+        state.rotation
+    };
     let left = 1.0 - constants.angular_damping * turning_time;
     RigidState { position, rotation, velocity, angular_momentum: momentum * left + kick }
 }
@@ -233,6 +284,7 @@ pub(crate) fn fly(state: &RigidState, constants: &Constants, influence: &Influen
 /// ```text
 /// v(t) = v₀·e^(−ct) + a·tφ      x(t) = x₀ + v₀·tφ + a·t²ψ      φ = (1 − e^(−ct))/ct      ψ = (1 − φ)/ct → ½
 /// ```
+#[inline]
 pub(crate) fn fly_center(
     state: &RigidState,
     constants: &Constants,
@@ -277,6 +329,9 @@ const TURN_STEPS: f64 = 1024.0;
 /// The orientation after turning for `time` seconds with the constant angular momentum `momentum`.
 fn turn(rotation: DQuat, momentum: DVec3, constants: &Constants, time: f64) -> DQuat {
     let rotor = &constants.rotor;
+    if constants.driven_spin == DVec3::ZERO && rotor.is_isotropic() {
+        return (rotation_from_vector(momentum * (rotor.common() * time)) * rotation).normalize();
+    }
     let mut axes = rotation * rotor.principal;
     let driven = rotation_from_vector(constants.driven_spin * (0.5 * time));
     axes *= driven;
@@ -341,6 +396,36 @@ fn turn_about(spin: &mut DQuat, local: &mut DVec3, axis: usize, rate_per_momentu
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_does_not_turn_keeps_its_rotation_to_the_bit() {
+        let mass = BodyMass { mass: 2.0, moments: DVec3::new(1.0, 2.0, 3.0), ..BodyMass::INFINITE };
+        let rotation = rotation_from_vector(DVec3::new(0.3, -1.2, 0.8));
+        let constants = Constants::new(&mass, rotation, DVec3::ZERO);
+        let start = RigidState { rotation, velocity: DVec3::new(1.0, 2.0, 3.0), ..RigidState::REST };
+        let influence = Influence::default();
+        assert!(constants.drifts(&start, &influence));
+        let end = fly(&start, &constants, &influence, 0.7);
+        assert_eq!(end, RigidState { position: start.velocity * 0.7, ..start });
+        assert_eq!(constants.spin_limit(&start, &influence, 0.7), 0.0);
+    }
+
+    #[test]
+    fn what_turns_about_all_axes_alike_does_as_the_general_body_does() {
+        let moments = DVec3::splat(0.4);
+        let axes = rotation_from_vector(DVec3::new(0.1, 0.7, -0.4));
+        let rotation = rotation_from_vector(DVec3::new(-0.5, 0.2, 1.1));
+        let ball = BodyMass { mass: 2.0, moments, principal_rotation: axes, ..BodyMass::INFINITE };
+        let nearly = BodyMass { moments: moments + DVec3::new(0.0, 1e-13, 2e-13), ..ball };
+        let [ball, nearly] = [ball, nearly].map(|mass| Constants::new(&mass, rotation, DVec3::ZERO));
+        let start = RigidState { rotation, angular_momentum: DVec3::new(1.0, -2.0, 0.5), ..RigidState::REST };
+        let [one, other] = [&ball, &nearly].map(|it| fly(&start, it, &Influence::default(), 0.3).rotation);
+        assert!((one - other).length() < 1e-11, "{one} against {other}");
+        let [one, other] = [&ball, &nearly].map(|it| it.angular_velocity(&start));
+        assert!((one - other).length() < 1e-11, "{one} against {other}");
+        let [one, other] = [&ball, &nearly].map(|it| it.inertia(rotation) * DVec3::ONE);
+        assert!((one - other).length() < 1e-11, "{one} against {other}");
+    }
 
     #[test]
     fn the_composition_is_of_fourth_order_and_keeps_the_energy() {

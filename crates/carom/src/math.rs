@@ -122,10 +122,15 @@ pub fn decay_fraction(x: f64) -> f64 {
 /// ```text
 /// φ = (1 − e⁻ˣ)/x → 1      ψ = (1 − φ)/x → 1/2      χ = (1/2 − ψ)/x → 1/6
 /// ```
+#[inline]
 pub fn decay_fractions(x: f64) -> [f64; 3] {
     if x == 0.0 {
         return [1.0, 0.5, 1.0 / 6.0];
     }
+    fractions_of_decay(x)
+}
+
+fn fractions_of_decay(x: f64) -> [f64; 3] {
     let first = decay_fraction(x);
     let second = if x < 1e-4 { 0.5 - x / 6.0 + x * x / 24.0 } else { (1.0 - first) / x };
     let third = if x < 1e-2 {

@@ -145,3 +145,30 @@ fn a_stack_takes_a_blow_at_once_down_to_the_floor() {
     }
     assert!(hits >= 7, "{hits} contacts struck: the blow got no further than the top");
 }
+
+#[test]
+fn smooth_balls_never_turn_not_even_by_rounding() {
+    let mut world = weightless();
+    for side in [-1.0, 1.0] {
+        for (x, y, z) in [(5.0, 0.0, 0.0), (0.0, 5.0, 0.0), (0.0, 0.0, 5.0)] {
+            let wall = Body::fixed().at(side * x, side * y, side * z).with(Shape::cuboid(6.0, 6.0, 6.0));
+            world.add(smooth(wall));
+        }
+    }
+    let mut balls = Vec::new();
+    for number in 0..8_u8 {
+        let place = |bit: u8| if number & bit == 0 { -0.9 } else { 0.8 };
+        let speed = |bit: u8| if number & bit == 0 { 3.1 } else { -2.3 } + 0.17 * f32::from(number);
+        let ball = Body::dynamic().at(place(1), place(2), place(4)).with(Shape::sphere(0.5));
+        balls.push(world.add(smooth(ball).moving(speed(2), speed(4), speed(1))));
+    }
+    let mut impacts = 0;
+    for _ in 0..120 {
+        impacts += world.step(STEP).impacts().len();
+    }
+    assert!(impacts > 50, "{impacts}");
+    for id in balls {
+        assert_eq!(world[id].angular_velocity(), Vec3::ZERO);
+        assert_eq!(world[id].rotation(), Quat::IDENTITY);
+    }
+}

@@ -23,7 +23,6 @@ use crate::report::Impact;
 use crate::step::motion::{advance, rouse};
 use crate::step::pairs::Pairs;
 use crate::step::rest::Rest;
-use std::collections::{BTreeMap, BTreeSet};
 
 /// So many rounds are carried out at once; what still closes then goes on in the next substep.
 const ROUNDS: u32 = 1024;
@@ -73,12 +72,14 @@ pub(crate) struct Instant<'a> {
     window: f64,
     movers: Vec<Mover>,
     rows: Vec<usize>,
-    mover_of_row: BTreeMap<usize, usize>,
+    /// In order of their rows.
+    mover_of_row: Vec<(usize, usize)>,
     /// Whether everything that touches a mover has been gathered.
     is_open: Vec<bool>,
     places: Vec<Place>,
     places_of: Vec<Vec<usize>>,
-    gathered: BTreeSet<usize>,
+    /// Pairs, in order.
+    gathered: Vec<usize>,
     /// Pairs that need not be gathered unless their bodies get faster.
     waiting: Vec<usize>,
     outcome: Outcome,
@@ -101,11 +102,11 @@ impl<'a> Instant<'a> {
             window: -touch.closing_speed * SIMULTANEOUS * law.substep,
             movers: Vec::new(),
             rows: Vec::new(),
-            mover_of_row: BTreeMap::new(),
+            mover_of_row: Vec::new(),
             is_open: Vec::new(),
             places: Vec::new(),
             places_of: Vec::new(),
-            gathered: BTreeSet::new(),
+            gathered: Vec::new(),
             waiting: Vec::new(),
             outcome: Outcome::default(),
         };
@@ -138,15 +139,18 @@ impl<'a> Instant<'a> {
         for index in self.closing(changed) {
             self.outcome.unfinished.push(self.places[index].pair);
         }
-        let mut stays: BTreeMap<usize, bool> = BTreeMap::new();
+        let mut stays: Vec<(usize, bool)> = Vec::new();
         for place in self.places.iter().filter(|place| place.is_struck) {
             let colliders = self.pairs[place.pair].colliders;
             let parts = Approach::of(self.bodies, colliders, self.law)
                 .is_none_or(|approach| approach.parts(&place.contact, place.spot.contact.normal));
             let is_slow = -place.closing(&self.movers) <= place.rest_speed;
-            *stays.entry(place.pair).or_insert(true) &= is_slow && !parts;
+            stays.push((place.pair, is_slow && !parts));
         }
-        self.outcome.struck = stays.into_iter().collect();
+        // One place that does not stay comes before those that do, and tells for all of its pair.
+        stays.sort_unstable();
+        stays.dedup_by_key(|&mut (pair, _)| pair);
+        self.outcome.struck = stays;
         self.outcome.rows.sort_unstable();
         self.outcome.rows.dedup();
         self.outcome
@@ -154,14 +158,16 @@ impl<'a> Instant<'a> {
 
     /// The mover of a row.
     fn mover(&mut self, row: usize) -> usize {
-        let next = self.movers.len();
-        let mover = *self.mover_of_row.entry(row).or_insert(next);
-        if mover == next {
-            self.movers.push(mover_at(self.bodies, row, self.time));
-            self.rows.push(row);
-            self.is_open.push(row == WORLD_ROW || !self.bodies.constants[row].is_movable());
-            self.places_of.push(Vec::new());
-        }
+        let mover = self.movers.len();
+        let place = match self.mover_of_row.binary_search_by_key(&row, |&(row, _)| row) {
+            Ok(place) => return self.mover_of_row[place].1,
+            Err(place) => place,
+        };
+        self.mover_of_row.insert(place, (row, mover));
+        self.movers.push(mover_at(self.bodies, row, self.time));
+        self.rows.push(row);
+        self.is_open.push(row == WORLD_ROW || !self.bodies.constants[row].is_movable());
+        self.places_of.push(Vec::new());
         mover
     }
 
@@ -175,7 +181,7 @@ impl<'a> Instant<'a> {
         advance(self.bodies, row, self.time);
         for number in 0..self.pairs.count_of_row(row) {
             let pair = self.pairs.of_row(row, number);
-            if self.pairs[pair].sensor || self.gathered.contains(&pair) {
+            if self.pairs[pair].sensor || self.gathered.binary_search(&pair).is_ok() {
                 continue;
             }
             if self.may_strike(pair, |_| None) {
@@ -206,12 +212,13 @@ impl<'a> Instant<'a> {
         }
         let speed = |side: usize| {
             let row = pair.rows[side];
-            let (linear, angular) = match self.mover_of_row.get(&row) {
-                Some(&mover) => {
+            let (linear, angular) = match self.mover_of_row.binary_search_by_key(&row, |&(row, _)| row) {
+                Ok(place) => {
+                    let mover = self.mover_of_row[place].1;
                     let Velocity { linear, angular } = changed(mover).unwrap_or(self.movers[mover].velocity);
                     (linear.length(), angular.length())
                 }
-                None => self.bodies.paces[row],
+                Err(_) => self.bodies.paces[row],
             };
             linear + angular * pair.spin_reach[side]
         };
@@ -222,8 +229,9 @@ impl<'a> Instant<'a> {
     fn gather(&mut self, index: usize) {
         let pair = &self.pairs[index];
         let margin = if pair.rests { self.law.contact_margin() } else { self.window };
-        if !self.gathered.insert(index) {
-            return;
+        match self.gathered.binary_search(&index) {
+            Ok(_) => return,
+            Err(place) => self.gathered.insert(place, index),
         }
         let Some(approach) = Approach::of(self.bodies, pair.colliders, self.law) else { return };
         let touching = if pair.rests { margin } else { approach.tolerance() };
@@ -274,6 +282,9 @@ impl<'a> Instant<'a> {
 
     /// The places of some movers, in order.
     fn places_of(&self, movers: &[usize]) -> Vec<usize> {
+        if let [mover] = movers {
+            return self.places_of[*mover].clone();
+        }
         let mut places: Vec<usize> =
             movers.iter().flat_map(|&mover| &self.places_of[mover]).copied().collect();
         places.sort_unstable();

@@ -38,10 +38,15 @@ pub(crate) fn velocity_of(bodies: &Bodies, row: usize) -> Velocity {
 
 /// Gives the body of `row` an impulse (N·s) at `arm` from its centre of mass.
 pub(crate) fn push(bodies: &mut Bodies, row: usize, arm: DVec3, impulse: DVec3) {
+    push_and_turn(bodies, row, arm, [impulse, impulse]);
+}
+
+/// The same where only a part of it turns the body.
+pub(crate) fn push_and_turn(bodies: &mut Bodies, row: usize, arm: DVec3, impulse_and_part: [DVec3; 2]) {
     if row != WORLD_ROW && bodies.constants[row].is_movable() {
-        let impulse = fault::lost_impulse(row, fault::normal(impulse));
+        let [impulse, part] = impulse_and_part.map(|it| fault::lost_impulse(row, fault::normal(it)));
         bodies.states[row].velocity += impulse * bodies.constants[row].inverse_mass;
-        bodies.states[row].angular_momentum += fault::lever_arm(arm).cross(impulse);
+        bodies.states[row].angular_momentum += fault::lever_arm(arm).cross(part);
     }
 }
 

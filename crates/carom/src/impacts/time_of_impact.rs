@@ -4,6 +4,7 @@
 //! in `time_of_impact/search.rs`.
 
 mod search;
+mod straight;
 
 use crate::bodies::{Bodies, ColliderRow, WORLD_ROW};
 use crate::collide::{self, ContactPoint, Manifold};
@@ -16,6 +17,7 @@ use crate::report::Feature;
 use crate::shape::Shape;
 use crate::step::motion::{free_influence, state_at};
 use crate::step::pairs::Pairs;
+pub(crate) use straight::outlook;
 
 /// What decides whether a touch is an impact or a contact.
 #[derive(Clone, Copy, Debug)]

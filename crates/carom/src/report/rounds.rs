@@ -40,6 +40,10 @@ fn leader(group_of: &mut [usize], mut index: usize) -> usize {
 
 /// Numbers the rounds of each instant from 0 and counts its contacts.
 pub(super) fn number(impacts: &mut [Impact]) {
+    if impacts.is_sorted_by(|one, next| one.time < next.time) {
+        impacts.iter_mut().for_each(|impact| (impact.round, impact.together) = (0, 1));
+        return;
+    }
     for group in instants(impacts) {
         let mut rounds: Vec<u32> = group.iter().map(|&index| impacts[index].round).collect();
         rounds.sort_unstable();

@@ -50,7 +50,7 @@ const MARGIN: f64 = 0.1;
 
 /// A fat box reaches so many more steps ahead, at least and at most: twice as many as the one before if nobody was near,
 /// else half as many.
-const AHEAD: [f64; 2] = [2.0, 16.0];
+const AHEAD: [f64; 2] = [4.0, 16.0];
 
 impl BroadPhase {
     pub fn new() -> Self {

@@ -15,7 +15,7 @@ mod agenda;
 
 use crate::bodies::{Bodies, WORLD_ROW};
 use crate::impacts::instant::Instant;
-use crate::impacts::time_of_impact::{Approach, RestLaw, Touch};
+use crate::impacts::time_of_impact::{Approach, RestLaw, Touch, outlook};
 use crate::report::Impact;
 use crate::step::broad_phase::{BroadPhase, order};
 use crate::step::motion::{advance, rouse, set_pace};
@@ -40,6 +40,8 @@ struct Answer {
     until: f64,
     /// Its separation when it was asked, if somebody had to look, m.
     separation: Option<f64>,
+    /// How far apart it stays until then, and is then, as far as that is known, m.
+    apart: [f64; 2],
     /// When it touches, if it does.
     instant: Option<f64>,
 }
@@ -71,7 +73,8 @@ impl<'a> Events<'a> {
     ) -> Self {
         agenda.clear(bodies.states.len());
         pairs.begin_watch(bodies, (law.step, law.contact_margin()));
-        Self { bodies, broad_phase, pairs, rest, law, agenda, impacts: Vec::new(), rounds: 0 }
+        let impacts = Vec::with_capacity(agenda.impacts);
+        Self { bodies, broad_phase, pairs, rest, law, agenda, impacts, rounds: 0 }
     }
 
     /// Lets a substep pass: contacts hold what rests, then touch comes after touch.
@@ -123,6 +126,8 @@ impl<'a> Events<'a> {
 
     /// All that has happened, each impact with its time within the step.
     pub fn finish(self) -> Vec<Impact> {
+        self.pairs.end_step(self.bodies, self.law.step);
+        self.agenda.impacts = self.impacts.len();
         self.impacts
     }
 
@@ -137,16 +142,25 @@ impl<'a> Events<'a> {
         let pair = &self.pairs[index];
         let is_held = pair.rows.into_iter().any(|row| self.rest.is_held(row));
         let until = if is_held { span.until } else { self.law.step };
-        let mut answer = Answer { until, separation: None, instant: None };
+        let mut answer = Answer { until, separation: None, apart: [f64::NEG_INFINITY; 2], instant: None };
         let may_touch = if pair.rests {
             !self.rest.presses(self.bodies, pair, self.law)
                 && self.rest.is_driven(self.bodies, pair, self.law, span)
         } else {
             pair.least_separation(self.bodies, until) <= pair.tolerance
         };
-        let Some(approach) = Approach::of(self.bodies, pair.colliders, self.law).filter(|_| may_touch) else {
+        if !may_touch {
             return answer;
-        };
+        }
+        if !pair.rests
+            && !pair.sensor
+            && let Some(outlook) = outlook(self.bodies, pair.colliders, (span.from, until), pair.tolerance)
+        {
+            let instant = outlook.touch.map(|wait| span.from + wait);
+            let apart = [outlook.least, outlook.end];
+            return Answer { until, separation: Some(outlook.separation), apart, instant };
+        }
+        let Some(approach) = Approach::of(self.bodies, pair.colliders, self.law) else { return answer };
         if pair.rests {
             let kept = self.rest.kept(self.bodies, pair, (self.law, span.from));
             answer.instant = approach.next_touch(self.pairs, span.from, until, Some(kept));
@@ -166,8 +180,9 @@ impl<'a> Events<'a> {
     }
 
     /// Notes what a pair has answered.
-    fn note(&mut self, index: usize, Answer { until, separation, instant }: Answer, span: Span) {
+    fn note(&mut self, index: usize, Answer { until, separation, apart, instant }: Answer, span: Span) {
         let pair = &mut self.pairs[index];
+        (pair.now.apart, pair.now.courses) = (apart, pair.rows.map(|row| self.bodies.courses[row]));
         pair.now.stamp += 1;
         (pair.now.asked_from, pair.now.asked_until) = (span.from, until);
         if let Some(separation) = separation {
@@ -234,6 +249,10 @@ impl<'a> Events<'a> {
                 self.rest.take(self.bodies, self.pairs, pair, (self.law, span));
             }
         }
+        for &row in &outcome.rows {
+            let until = if self.rest.is_held(row) { span.until } else { self.law.step };
+            set_pace(self.bodies, row, until);
+        }
         for row in outcome.rows {
             self.reroute(row, span);
         }
@@ -264,8 +283,6 @@ impl<'a> Events<'a> {
         if row == WORLD_ROW {
             return;
         }
-        let until = if self.rest.is_held(row) { span.until } else { self.law.step };
-        set_pace(self.bodies, row, until);
         self.agenda.rerouted.push(row);
         self.claim_anew(row, span.from);
         for number in 0..self.pairs.count_of_row(row) {

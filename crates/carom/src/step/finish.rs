@@ -1,12 +1,16 @@
 //! The end of a step: tidy up, and tell.
 
 use crate::bodies::{Bodies, WORLD_ROW};
+use crate::flight::RigidState;
 use crate::impacts::time_of_impact::RestLaw;
 use crate::report::Overlap;
 use crate::world::World;
 
 /// Takes out of the simulation what is no longer finite, where it was last seen whole.
 pub(crate) fn quarantine(world: &mut World) {
+    if world.bodies.states.iter().all(RigidState::is_finite) {
+        return;
+    }
     let lost: Vec<u32> = world
         .bodies
         .rows()

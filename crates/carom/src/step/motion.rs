@@ -19,15 +19,18 @@ pub(crate) fn begin_flight(bodies: &mut Bodies, gravity: DVec3, time: f64) {
 }
 
 /// Bounds how fast the points of a body move until `end`; to be called whenever its path has changed.
+#[inline]
 pub(crate) fn set_pace(bodies: &mut Bodies, row: usize, end: f64) {
     let (state, constants, influence) =
         (&bodies.states[row], &bodies.constants[row], &bodies.influences[row]);
     let left = end - bodies.clocks[row];
     let linear = state.velocity.length() + influence.acceleration.length() * left;
     bodies.paces[row] = (linear, constants.spin_limit(state, influence, left));
+    bodies.courses[row] = bodies.courses[row].wrapping_add(1);
 }
 
 /// Gravity and the user's forces on one body.
+#[inline]
 pub(crate) fn free_influence(bodies: &Bodies, row: usize, gravity: DVec3) -> Influence {
     let constants = &bodies.constants[row];
     let (force, torque) = bodies.forces[row];
@@ -47,13 +50,26 @@ pub(crate) fn rouse(bodies: &mut Bodies, row: usize, law: RestLaw, time: f64) {
 
 /// Advances one body along its flight to `time` within the step.
 pub(crate) fn advance(bodies: &mut Bodies, row: usize, time: f64) {
-    if is_behind(bodies, row, time) {
+    if !is_behind(bodies, row, time) {
+        return;
+    }
+    let drifts = bodies.constants[row].drifts(&bodies.states[row], &bodies.influences[row]);
+    if drifts && bodies.journal.is_none() && bodies.plans[row].is_none() {
+        bodies.ways[row] = bodies.way(row, time);
+        let flown = time - bodies.clocks[row];
+        let state = &mut bodies.states[row];
+        state.position += state.velocity * flown;
+        bodies.clocks[row] = time;
+    } else {
         arrive(bodies, row, &state_at(bodies, row, time), time);
     }
 }
 
 /// The same for many, shared out among the threads of `pool`.
 pub(crate) fn advance_all(bodies: &mut Bodies, rows: &[usize], time: f64, pool: &Pool) {
+    if !pool.shares(rows.len(), FLIGHTS) {
+        return rows.iter().for_each(|&row| advance(bodies, row, time));
+    }
     let flown = |&row: &usize| is_behind(bodies, row, time).then(|| state_at(bodies, row, time));
     let states = pool.map(rows, FLIGHTS, flown);
     for (&row, state) in rows.iter().zip(states) {
@@ -71,13 +87,14 @@ fn is_behind(bodies: &Bodies, row: usize, time: f64) -> bool {
 }
 
 /// A body has got to `state` at `time`.
+#[inline]
 fn arrive(bodies: &mut Bodies, row: usize, state: &RigidState, time: f64) {
     bodies.ways[row] = bodies.way(row, time);
-    let before = std::mem::replace(&mut bodies.states[row], *state);
-    if bodies.journal.is_some() {
+    if bodies.journal.is_none() && bodies.plans[row].is_none() {
+        bodies.states[row] = *state;
+    } else {
+        let before = std::mem::replace(&mut bodies.states[row], *state);
         flown(bodies, row, &before, time - bodies.clocks[row]);
-    }
-    if bodies.plans[row].is_some() {
         keep_to_plan(bodies, row, &before, time);
     }
     bodies.clocks[row] = time;
@@ -133,6 +150,7 @@ fn keep_to_plan(bodies: &mut Bodies, row: usize, before: &RigidState, time: f64)
 }
 
 /// Where a body will be at `time` within the step if nothing touches it before.
+#[inline]
 pub(crate) fn state_at(bodies: &Bodies, row: usize, time: f64) -> RigidState {
     let flown = time - bodies.clocks[row];
     fly(&bodies.states[row], &bodies.constants[row], &bodies.influences[row], flown)

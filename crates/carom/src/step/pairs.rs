@@ -71,6 +71,15 @@ impl Pairs {
         parted
     }
 
+    /// Ends a step of `time` seconds: what pairs have foreseen for its end holds from now on.
+    pub fn end_step(&mut self, bodies: &Bodies, time: f64) {
+        for &index in &self.changed {
+            if let Some(pair) = &mut self.list[index as usize] {
+                pair.end_step(bodies, time);
+            }
+        }
+    }
+
     fn grow(&mut self, rows: usize) {
         if self.of_row.len() < rows {
             self.of_row.resize_with(rows, Vec::new);

@@ -46,6 +46,11 @@ impl Pool {
         self.crew.get().is_some()
     }
 
+    /// Whether `count` items are shared out, if a unit has at least `grain` of them: if not, the caller may as well go through them.
+    pub fn shares(&self, count: usize, grain: usize) -> bool {
+        self.threads > 1 && count / grain.max(1) > 1
+    }
+
     /// Each item's result, in their order; a unit has at least `grain` items, worth some microseconds. Deterministic if `map` is a
     /// function of the item alone.
     pub fn map<T: Sync, R: Send>(&self, items: &[T], grain: usize, map: impl Fn(&T) -> R + Sync) -> Vec<R> {
@@ -62,7 +67,7 @@ impl Pool {
         act: impl Fn(Range<usize>) -> R + Sync,
     ) -> Vec<R> {
         let units = (count / grain.max(1)).min(crew::UNITS);
-        if units < 2 || self.threads < 2 {
+        if !self.shares(count, grain) {
             return if count == 0 { Vec::new() } else { vec![act(0..count)] };
         }
         let results: Vec<Mutex<Option<R>>> = (0..units).map(|_| Mutex::new(None)).collect();

@@ -2,7 +2,7 @@
 
 use super::Instant;
 use crate::impacts::reflection::{Blow, Mover, Spot, Start, reflect, velocities_after};
-use crate::impacts::strike::{push, record, velocity_of};
+use crate::impacts::strike::{push_and_turn, record, velocity_of};
 use crate::impulse::Velocity;
 use crate::math::DVec3;
 
@@ -60,6 +60,9 @@ impl Instant<'_> {
     /// Gives the bodies their impulses; returns the movers whose velocities change.
     pub(super) fn carry_out(&mut self, round: u32, struck: &[usize], blows: &[Blow]) -> Vec<usize> {
         let first = self.outcome.impacts.len();
+        if first == 0 {
+            self.outcome.impacts.reserve_exact(struck.len());
+        }
         let mut changed = Vec::new();
         let mut recorded = Vec::new();
         for (&index, blow) in struck.iter().zip(blows) {
@@ -73,12 +76,15 @@ impl Instant<'_> {
             let impact = record(self.bodies, colliders, &place.contact, struck, (self.time, round));
             self.outcome.impacts.extend(impact);
             recorded.push(index);
-            let impulse = blow.normal * place.spot.contact.normal + blow.tangent;
-            for (side, impulse) in [(0, -impulse), (1, impulse)] {
-                let mover = place.spot.movers[side];
+            let (impulse, across) = (blow.normal * place.spot.contact.normal + blow.tangent, blow.tangent);
+            let spot = place.spot;
+            for (side, sign) in [(0, -1.0), (1, 1.0)] {
+                let mover = spot.movers[side];
                 let row = self.rows[mover];
                 if self.bodies.constants[row].is_movable() {
-                    push(self.bodies, row, place.spot.arms[side], impulse);
+                    let arm = spot.arms[side];
+                    let turning = sign * if is_central(arm, spot.contact.normal) { across } else { impulse };
+                    push_and_turn(self.bodies, row, arm, [sign * impulse, turning]);
                     changed.push(mover);
                 }
             }
@@ -95,6 +101,15 @@ impl Instant<'_> {
         }
         changed
     }
+}
+
+/// The angle (rad) by which a line may miss a body's centre for rounding.
+const MISS: f64 = 1e-12;
+
+/// Whether a line along `normal` at `arm` from a body's centre leads through it, as it does at the surface of a ball: what pushes
+/// along it does not turn the body, not even by rounding.
+fn is_central(arm: DVec3, normal: DVec3) -> bool {
+    arm.cross(normal).length_squared() <= MISS * MISS * arm.length_squared()
 }
 
 /// The bodies and places of one round.

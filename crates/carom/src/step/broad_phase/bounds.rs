@@ -3,6 +3,7 @@
 use crate::bodies::{Bodies, ColliderRow, WORLD_ROW};
 use crate::flight::fly_center;
 use crate::math::{DVec3, Pose};
+use crate::shape::Shape;
 
 /// A box in the world, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,6 +47,12 @@ impl Bounds {
 
 /// The box around a collider at its body's present pose.
 pub(super) fn present_bounds(bodies: &Bodies, collider: &ColliderRow) -> Bounds {
+    if let Shape::Sphere { radius } = collider.shape
+        && collider.spin_reach == 0.0
+    {
+        let center = bodies.center_pose(collider).position;
+        return Bounds { low: center, high: center }.grown(radius);
+    }
     let pose: Pose = bodies.center_pose(collider).then_local(&collider.local);
     let (low, high) = collider.shape.bounds(&pose);
     Bounds { low, high }

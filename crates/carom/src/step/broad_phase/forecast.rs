@@ -73,18 +73,29 @@ impl Forecast {
 
     /// Whether the body still follows it, on its path from its own time to the end of the step of `step` seconds that began
     /// at `time`.
+    #[inline]
     pub fn holds(&self, bodies: &Bodies, row: usize, (time, step): (f64, f64)) -> bool {
         let (state, influence) = (&bodies.states[row], &bodies.influences[row]);
-        let left = step - bodies.clocks[row];
+        let (clock, damping) = (bodies.clocks[row], bodies.constants[row].linear_damping);
         let foreseen =
             |until: f64| self.position + self.velocity * (until - self.start).clamp(0.0, self.duration);
-        let now = state.position - foreseen(time + bodies.clocks[row]);
-        let end = state.position + state.velocity * left - foreseen(time + step);
-        // The path bends by acceleration and damping.
-        let drag = bodies.constants[row].linear_damping * state.velocity.length();
-        let bend = 0.5 * left * left * (influence.acceleration.length() + drag);
-        let stray = self.stray - bend;
+        let is_near = |position: DVec3, until: f64, stray: f64| {
+            stray >= 0.0 && position.distance_squared(foreseen(until)) <= stray * stray
+        };
         let (_, turned) = bodies.way(row, step);
-        stray >= 0.0 && now.length_squared().max(end.length_squared()) <= stray * stray && turned <= self.turn
+        if turned > self.turn {
+            return false;
+        }
+        let is_straight = damping == 0.0 && influence.acceleration == DVec3::ZERO;
+        let ends_before = time + step <= self.start + self.duration;
+        if is_straight && ends_before && state.velocity == self.velocity {
+            return is_near(state.position, time + clock, self.stray);
+        }
+        // The path bends by acceleration and damping.
+        let left = step - clock;
+        let drag = damping * state.velocity.length();
+        let stray = self.stray - 0.5 * left * left * (influence.acceleration.length() + drag);
+        is_near(state.position, time + clock, stray)
+            && is_near(state.position + state.velocity * left, time + step, stray)
     }
 }

@@ -58,10 +58,12 @@ impl Tree {
             return self.insert(key, bounds);
         }
         let parent = self.nodes[node as usize].parent;
-        let stays = parent == NONE || {
-            let parent = &self.nodes[parent as usize];
-            parent.get(parent.slot_of(node)).contains(&bounds)
-        };
+        let stays = parent == NONE
+            || {
+                let parent = &self.nodes[parent as usize];
+                parent.get(parent.slot_of(node)).contains(&bounds)
+            }
+            || self.is_among_others((node, slot), &bounds);
         if stays {
             self.nodes[node as usize].set(slot as usize, bounds);
             self.refit(node);
@@ -69,6 +71,14 @@ impl Tree {
             self.remove(key);
             self.insert(key, bounds);
         }
+    }
+
+    /// Whether the middle of a box is among the boxes of a node, that of its own slot aside.
+    fn is_among_others(&mut self, (node, slot): (u32, u32), bounds: &Local) -> bool {
+        let node = &mut self.nodes[node as usize];
+        node.set(slot as usize, Local::NOTHING);
+        let middle = 0.5 * (bounds.low + bounds.high);
+        node.whole().contains(&Local { low: middle, high: middle })
     }
 
     /// Takes a key out, if it is there.

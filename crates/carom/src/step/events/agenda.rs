@@ -38,6 +38,8 @@ pub(crate) struct Agenda {
     pub(super) rerouted: Vec<usize>,
     /// Pairs that are to be asked.
     pub(super) due: Vec<usize>,
+    /// How many impacts there were in the last step.
+    pub(super) impacts: usize,
 }
 
 impl Agenda {

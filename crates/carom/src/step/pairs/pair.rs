@@ -1,6 +1,6 @@
 //! Two colliders that are near each other.
 
-use crate::bodies::Bodies;
+use crate::bodies::{Bodies, ColliderRow};
 use crate::collide::Manifold;
 use crate::impacts::time_of_impact::tolerance;
 use crate::material::Surface;
@@ -72,6 +72,10 @@ pub(crate) struct Present {
     pub fastest: f64,
     /// Whether it is a sensor and what has been in it.
     pub is_sensed: bool,
+    /// How far apart they stay until the end of what they have been asked about, and are then (m), as long as their bodies are
+    /// on these courses.
+    pub apart: [f64; 2],
+    pub courses: [u32; 2],
     /// How long to look away after a touch that vanished under a closer look, as a share of the step.
     pub patience: f64,
 }
@@ -84,6 +88,8 @@ impl Present {
         hits: 0,
         fastest: 0.0,
         is_sensed: false,
+        apart: [f64::NEG_INFINITY; 2],
+        courses: [0; 2],
         patience: 1e-9,
     };
 }
@@ -102,7 +108,7 @@ impl Pair {
             supports: Vec::new(),
             is_pressed: false,
             is_outdated: false,
-            clearance: f64::NEG_INFINITY,
+            clearance: clearance_of_centers(bodies, a, b),
             now: Present::NOTHING,
             is_changed: false,
             is_watched: false,
@@ -116,6 +122,7 @@ impl Pair {
     }
 
     /// How far the two bodies' points have moved until `time` within the step, m, since a time of no matter.
+    #[inline]
     fn path(&self, bodies: &Bodies, time: f64) -> f64 {
         let of = |side: usize| {
             let (linear, angular) = bodies.way(self.rows[side], time);
@@ -125,12 +132,33 @@ impl Pair {
     }
 
     /// A lower bound of the separation at `time`, m.
+    #[inline]
     pub fn least_separation(&self, bodies: &Bodies, time: f64) -> f64 {
-        self.clearance - self.path(bodies, time)
+        match self.foreseen(bodies) {
+            Some([least, _]) if time <= self.now.asked_until => least,
+            _ => self.clearance - self.path(bodies, time),
+        }
+    }
+
+    /// How far apart the two stay, and will be at the end, as far as they have been asked, m.
+    fn foreseen(&self, bodies: &Bodies) -> Option<[f64; 2]> {
+        let holds = self.now.apart[0] > f64::NEG_INFINITY
+            && self.now.courses == self.rows.map(|row| bodies.courses[row]);
+        holds.then_some(self.now.apart)
+    }
+
+    /// Ends a step of `time` seconds, with all bodies on their last courses.
+    pub(super) fn end_step(&mut self, bodies: &Bodies, time: f64) {
+        if self.now.asked_until == time
+            && let Some([_, end]) = self.foreseen(bodies)
+        {
+            self.measured(bodies, end, time);
+        }
     }
 
     /// Whether the two could come within `margin` of each other, or touch, before their bodies' ways exceed `limits`
     /// (m, rad).
+    #[inline]
     fn could_meet(&self, limits: [(f64, f64); 2], margin: f64) -> bool {
         let path = |side: usize| limits[side].0 + limits[side].1 * self.spin_reach[side];
         let left = self.clearance - (path(0) + path(1));
@@ -152,3 +180,18 @@ impl Pair {
         self.clearance = separation + self.path(bodies, time);
     }
 }
+
+/// The clearance of two colliders that nobody has looked at: how far apart their bodies' centres are, less what reaches out from them.
+fn clearance_of_centers(bodies: &Bodies, a: &ColliderRow, b: &ColliderRow) -> f64 {
+    let way = |collider: &ColliderRow| {
+        // Each body is at its own time.
+        let (linear, angular) = bodies.ways[collider.row];
+        linear + angular * collider.spin_reach
+    };
+    let distance = bodies.center_pose(a).position.distance(bodies.center_pose(b).position);
+    let least = distance * (1.0 - ROUNDING) - (a.reach + b.reach) + (way(a) + way(b));
+    if least.is_nan() { f64::NEG_INFINITY } else { least }
+}
+
+/// Relative, of a distance.
+const ROUNDING: f64 = 1e-12;

@@ -1,5 +1,6 @@
 //! Pairs against a search of all colliders, while bodies fly, come, go and are meddled with.
 
+use super::watch::merge;
 use super::{Entry, Pairs};
 use crate::bodies::{Bodies, ColliderRow, WORLD_ROW};
 use crate::collide::separation;
@@ -143,5 +144,22 @@ fn no_pair_is_missed_wherever_the_scene_is() {
             }
         }
         assert!(world.pairs.iter().count() > 20, "nothing was near");
+    }
+}
+
+#[test]
+fn who_joins_the_watched_pairs_gets_into_their_order() {
+    let entries = |numbers: &[u32]| -> Vec<Entry> {
+        numbers.iter().map(|&number| Entry { colliders: (number, number), index: number }).collect()
+    };
+    for (list, joining, both) in [
+        (&[1, 4, 6][..], &[0, 5, 7][..], &[0, 1, 4, 5, 6, 7][..]),
+        (&[], &[2, 3], &[2, 3]),
+        (&[2, 3], &[], &[2, 3]),
+        (&[5, 6], &[1, 5], &[1, 5, 5, 6]),
+    ] {
+        let (mut list, mut joining) = (entries(list), entries(joining));
+        merge(&mut list, &mut joining);
+        assert_eq!((list, joining), (entries(both), Vec::new()));
     }
 }

@@ -7,9 +7,9 @@ use super::{Entry, Pairs};
 use crate::bodies::{Bodies, WORLD_ROW};
 
 /// A limit allows for a turn of this angle (rad) and for a path of this share of the body's size, or for what the body's
-/// speed takes it to in so many steps.
+/// speed takes it to in so many steps more.
 const SHARE: f64 = 0.02;
-const STEPS: f64 = 2.0;
+const STEPS: f64 = 1.0;
 
 /// Limits, and the pairs that could meet within them.
 #[derive(Default)]
@@ -121,9 +121,8 @@ impl Pairs {
         if watch.joining.is_empty() {
             return;
         }
-        watch.list.append(&mut watch.joining);
-        // Two runs in order, or nearly so: a merge.
-        watch.list.sort_by_key(|entry| entry.colliders);
+        watch.joining.sort_unstable();
+        merge(&mut watch.list, &mut watch.joining);
         // A pair that was taken out and came back before anybody looked is in it twice.
         watch.list.dedup();
     }
@@ -136,5 +135,22 @@ impl Pairs {
     /// One of them, in order of their colliders' keys.
     pub fn watched(&self, number: usize) -> usize {
         self.watch.list[number].index as usize
+    }
+}
+
+/// Puts entries in order into a list in order, from the end on: what comes before all of them is not touched.
+pub(super) fn merge(list: &mut Vec<Entry>, joining: &mut Vec<Entry>) {
+    let mut read = list.len();
+    list.extend_from_slice(joining);
+    let mut write = list.len();
+    while let Some(&entry) = joining.last() {
+        write -= 1;
+        if read > 0 && list[read - 1] > entry {
+            read -= 1;
+            list[write] = list[read];
+        } else {
+            list[write] = entry;
+            joining.pop();
+        }
     }
 }

@@ -41,6 +41,9 @@ impl Rest {
         let held = self.rows.held().to_vec();
         advance_all(bodies, &held, span.from, self.graph.pool());
         settle(bodies);
+        if held.is_empty() {
+            return Vec::new();
+        }
         let mut freed = Vec::new();
         self.renew_moved(bodies, pairs, &held, (law, span));
         for row in held.into_iter().filter(|&row| !self.rows.is_held(row)) {
