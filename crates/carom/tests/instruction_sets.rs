@@ -182,12 +182,12 @@ const THREADS: [u32; 3] = [1, 2, 4];
 
 /// The hashes of states and events of [pile, mesh, gas, cradle, stack, crowd].
 const EXPECTED: [[u64; 2]; 6] = [
-    [0x3c04_4ae4_7f3f_7d33, 0x3653_d05b_e9da_3c41],
-    [0xc171_5e7d_0f2a_904e, 0x17c5_a9b3_46a3_474d],
-    [0x82e7_4950_5da6_dd2e, 0xcf19_842b_7889_4af9],
+    [0x7588_a800_0277_9b10, 0x5bdf_2b38_68e6_c76e],
+    [0x7be5_3422_2bd3_e032, 0xd960_2d0e_ef94_6bc0],
+    [0xb7c9_a597_8de9_22c8, 0x12d9_d339_e94d_7830],
     [0xc1e1_fd04_731e_91a0, 0xf840_eec8_201f_e158],
-    [0x272f_60bd_c672_5035, 0xed12_20bc_eb21_b9ff],
-    [0xc869_8d64_84f0_3097, 0x4754_70c0_e99a_3f3f],
+    [0xe977_f0be_3005_8cc1, 0x1222_2d2a_3de1_8908],
+    [0x3e71_74d9_eac2_4e82, 0xd2ac_ba39_ab9c_99e1],
 ];
 
 #[test]

@@ -29,11 +29,12 @@ use crate::math::{DMat3, DVec3, any_tangent};
 const SWEEPS: usize = 400;
 const AGREEMENT: f64 = 1e-14;
 
-/// Impulses to start a round from, and the change of speed (m/s) that is not worth a sweep.
+/// Impulses to start a round from, the change of speed (m/s) that is not worth a sweep, and how many there may be at most of each kind.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Start<'a> {
     pub blows: &'a [Blow],
     pub negligible: f64,
+    pub sweeps: usize,
 }
 
 /// A body at the instant.
@@ -149,6 +150,7 @@ struct Round<'a> {
     /// What speeds are compared with, m/s.
     fastest: f64,
     negligible: f64,
+    sweeps: usize,
 }
 
 /// What a spot's impulses do to its own point and to its two bodies.
@@ -213,7 +215,16 @@ impl<'a> Round<'a> {
             blow.normal = earlier.normal;
         }
         let velocities = velocities_after(movers, spots, &blows);
-        Self { movers, spots, rows, velocities, blows, fastest, negligible: start.negligible }
+        Self {
+            movers,
+            spots,
+            rows,
+            velocities,
+            blows,
+            fastest,
+            negligible: start.negligible,
+            sweeps: start.sweeps,
+        }
     }
 
     fn velocity(&self, index: usize) -> DVec3 {
@@ -251,7 +262,7 @@ impl<'a> Round<'a> {
 
     /// Step 1.
     fn push_along_normals(&mut self) {
-        self.sweep((SWEEPS, AGREEMENT), Self::push_along_normal);
+        self.sweep((SWEEPS.min(self.sweeps), AGREEMENT), Self::push_along_normal);
     }
 
     /// Lets one spot after the other `act`, which tells how much it has changed a speed (m/s), until nothing changes by more than a

@@ -4,6 +4,7 @@ mod books;
 mod energy;
 mod islands;
 mod measure;
+mod prepare;
 mod seed;
 mod width;
 

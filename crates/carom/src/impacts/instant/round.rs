@@ -8,8 +8,11 @@ use crate::math::DVec3;
 
 /// Where no contact bounces, speeds are found up to this share of the rest threshold; and up to the second, while it is sought who
 /// pushes.
-const NEGLIGIBLE: f64 = 1e-5;
+const NEGLIGIBLE: f64 = 1e-4;
 const ROUGH: f64 = 1e-2;
+
+/// So many sweeps are enough to see who pushes.
+const GLANCE: usize = 20;
 
 impl Instant<'_> {
     /// Finds the impulses of a round in which at least `struck` push; returns which do.
@@ -19,7 +22,8 @@ impl Instant<'_> {
         loop {
             let round = Cast::of(self, &struck);
             let negligible = share * self.slowest(&struck);
-            let blows = reflect(&round.movers, &round.spots, Start { blows: &earlier, negligible });
+            let sweeps = if negligible > 0.0 && share > NEGLIGIBLE { GLANCE } else { usize::MAX };
+            let blows = reflect(&round.movers, &round.spots, Start { blows: &earlier, negligible, sweeps });
             let after = velocities_after(&round.movers, &round.spots, &blows);
             let moved = |(&mover, after): (&usize, &Velocity)| {
                 (self.movers[mover].velocity != *after).then_some(mover)

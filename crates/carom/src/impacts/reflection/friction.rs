@@ -15,7 +15,7 @@ impl Round<'_> {
     /// convex. On the way the energy changes by `a·(d·u₀) + ½a²·(d·Kd)` with `d = j − j₀`; the way ends where this would become positive.
     pub(super) fn rub(&mut self) {
         let (smooth, before) = (self.blows.clone(), self.velocities.clone());
-        self.sweep((SWEEPS, AGREEMENT), Self::push_and_rub);
+        self.sweep((SWEEPS.min(self.sweeps), AGREEMENT), Self::push_and_rub);
         let (mut first, mut second) = (0.0, 0.0);
         for (index, (spot, blow)) in self.spots.iter().zip(&self.blows).enumerate() {
             let further = blow.impulse(spot) - smooth[index].impulse(spot);

@@ -7,7 +7,7 @@ use crate::math::DMat3;
 
 use crate::random::Random;
 
-const AT_ONCE: Start<'static> = Start { blows: &[], negligible: 0.0 };
+const AT_ONCE: Start<'static> = Start { blows: &[], negligible: 0.0, sweeps: usize::MAX };
 
 fn ball(mass: f64, velocity: DVec3) -> Mover {
     let moment = 0.1 * mass;

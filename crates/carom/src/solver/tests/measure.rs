@@ -3,6 +3,7 @@
 use super::*;
 use crate::solver::bundle::field;
 use crate::solver::contact::measure;
+use crate::solver::rows::LEASH;
 
 /// A rigid motion of a body: of its centre, and about it.
 type Drift = (DVec3, DQuat);
@@ -47,7 +48,7 @@ impl Case {
         self.center(body, &self.now) + self.now[body].1 * local
     }
 
-    fn measured(&self) -> f64 {
+    fn bundle(&self) -> Bundle {
         let sides = [0, 1].map(|body| {
             let (moved, turn) = self.seen[body];
             Side {
@@ -63,6 +64,11 @@ impl Case {
         let points = [at(self.point, self.separation)];
         let mut bundle = Bundle::EMPTY;
         bundle.write(0, [1, 2], &lane(self.normal, &points, &sides, &terms, &Remembered::default()));
+        bundle
+    }
+
+    fn measured(&self) -> f64 {
+        let mut bundle = self.bundle();
         measure::<Portable<4>>(&mut bundle, &[row(&STILL), row(&self.now[0]), row(&self.now[1])]);
         assert_eq!(bundle.get(0, field::GAP), bundle.get(0, field::WIDEST));
         f64::from(bundle.get(0, field::GAP))
@@ -190,5 +196,25 @@ fn a_ball_on_a_plane_may_roll_as_far_as_it_likes() {
         let height = (case.carried(ball, middle) - case.carried(plane, case.point)).dot(out) - radius;
         let error = (case.measured() - height).abs();
         assert!(error <= 4e-6, "{error} of {height}");
+    }
+}
+
+#[test]
+fn a_contact_has_strayed_when_its_bodies_are_off_the_longer_leash() {
+    let mut random = Random(37);
+    for _ in 0..1000 {
+        let case = case(&mut random);
+        let mut bundle = case.bundle();
+        let leashes = [random.range(0.0, 1.0), random.range(0.0, 1.0)];
+        let rows = [0, 1].map(|body| {
+            let mut row = row(&case.now[body]);
+            row.0[LEASH] = leashes[body] as f32;
+            row
+        });
+        measure::<Portable<4>>(&mut bundle, &[row(&STILL), rows[0], rows[1]]);
+        let strayed = (case.now[1].0 - case.now[0].0).length() - leashes[0].max(leashes[1]);
+        assert!((f64::from(bundle.get(0, field::STRAY)) - strayed).abs() < 1e-6);
+        assert_eq!(bundle.has_strayed(0), bundle.get(0, field::STRAY) > 0.0);
+        assert!(!bundle.has_strayed(1), "a lane without a contact");
     }
 }

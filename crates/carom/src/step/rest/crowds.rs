@@ -96,10 +96,13 @@ mod tests {
 
     const STEP: f64 = 1.0 / 60.0;
 
-    /// Sixty lumps, boxes and wedges, poured onto a heap.
+    /// Sixty lumps, boxes and wedges, poured into a shaft.
     fn heap(random: &mut Random) -> World {
         let mut world = World::new();
         world.add(Body::fixed().with(Shape::plane()));
+        for (x, z) in [(2.0, 0.0), (-2.0, 0.0), (0.0, 2.0), (0.0, -2.0)] {
+            world.add(Body::fixed().with(Shape::cuboid(2.0, 50.0, 2.0)).at(x, 20.0, z));
+        }
         for number in 0..60 {
             let size = |random: &mut Random| random.range(0.3, 0.6);
             let (x, y, z) = (size(random), size(random), size(random));
@@ -119,7 +122,7 @@ mod tests {
 
     #[test]
     fn nothing_in_a_crowd_that_has_come_to_rest_is_held_by_what_it_does_not_touch() {
-        for seed in 0..4 {
+        for seed in 0..2 {
             let mut world = heap(&mut Random(41 + seed));
             let law = RestLaw { gravity: world.settings.gravity, substep: 0.25 * STEP, step: STEP };
             for step in 0..300 {
@@ -141,7 +144,7 @@ mod tests {
                     if is_pressed && is_slow {
                         let approach = Approach::of(bodies, pair.colliders, law).expect("both are there");
                         let gap = approach.separation(STEP);
-                        assert!(gap < 3e-4, "held over a gap of {gap} m in step {step}, heap {seed}");
+                        assert!(gap < 2e-4, "held over a gap of {gap} m in step {step}, heap {seed}");
                     }
                 }
             }
