@@ -34,7 +34,7 @@ pub(crate) mod field {
     /// Coulomb's coefficients.
     pub const STATIC_FRICTION: usize = 29;
     pub const DYNAMIC_FRICTION: usize = 30;
-    /// Gap up to which a point counts at all: what comes from further away strikes. m.
+    /// Gap up to which a point counts at all: what comes from further away strikes. Huge where contacts see to all points. m.
     pub const HORIZON: usize = 31;
     /// How far the last sweep has changed a velocity, m/s.
     pub const RESIDUAL: usize = 32;

@@ -225,7 +225,7 @@ impl Rest {
         if is_left { PRESSED * grain(bodies, pair) / law.substep } else { 0.0 }
     }
 
-    /// Whether contacts see to a pair, if it rests, however it is pressed.
+    /// Whether contacts see to all points of a pair, if it rests.
     pub fn presses(&self, bodies: &Bodies, pair: &Pair, law: RestLaw) -> bool {
         self.crowds.press(bodies, pair, law)
     }

@@ -21,8 +21,8 @@ pub(crate) struct Pair {
     /// Whether the pair rests: it has supports then.
     pub rests: bool,
     pub supports: Vec<Support>,
-    /// Whether these see to it however it is pressed, so that nobody has to ask when a point of it strikes; and whether that is
-    /// no longer so, or should be.
+    /// Whether these see to all of its points, so that nobody has to ask when one strikes; and whether that is no longer so, or should
+    /// be from now on.
     pub is_pressed: bool,
     pub is_outdated: bool,
     /// A separation that the two had, plus how far their bodies had moved by then (m): they are at least this less

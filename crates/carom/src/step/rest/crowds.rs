@@ -2,18 +2,16 @@
 //!
 //! There everything touches everything, and each blow presses hundreds of contacts a little. What touches for the first time strikes at
 //! its own instant, as anywhere else. What rests already and does not bounce has nothing that an instant could tell: it is
-//! stopped. So a crowd's contacts see to all of it, however it is pressed, at the end of the substep.
+//! stopped. So a crowd's contacts see to all points of such a pair, also to those that have not touched yet, and nobody asks when these
+//! will; unless they come so fast that they would get far into the other body within a substep.
 
-use super::grain;
+use super::{PRESSED, grain};
 use crate::bodies::{Bodies, WORLD_ROW};
 use crate::impacts::time_of_impact::RestLaw;
 use crate::step::pairs::Pair;
 
 /// More bodies than this, resting against each other, are a crowd.
 const CROWD: u32 = 32;
-
-/// A pair whose points come nearer in a substep than this share of the smaller body's reach is no longer left to contacts.
-const AT_A_STRETCH: f64 = 0.02;
 
 /// Gap that contacts of a crowd see to however slowly its bodies move, as a share of the smaller reach.
 const AT_HAND: f64 = 0.1;
@@ -64,11 +62,11 @@ impl Crowds {
         rows.into_iter().any(|row| self.has(row))
     }
 
-    /// Whether contacts see to a pair that rests, however it is pressed.
+    /// Whether contacts see to all points of a pair that rests.
     pub fn press(&self, bodies: &Bodies, pair: &Pair, law: RestLaw) -> bool {
         pair.surface.restitution == 0.0
             && self.has_either(pair.rows)
-            && approach(bodies, pair, law.substep) <= AT_A_STRETCH * grain(bodies, pair)
+            && approach(bodies, pair, law.substep) <= PRESSED * grain(bodies, pair)
     }
 }
 

@@ -30,7 +30,7 @@ const LOOKS: usize = 16;
 struct View {
     /// Each manifold, and its numbers.
     contacts: Vec<(Manifold, Lane)>,
-    /// Whether they see to it however it is pressed.
+    /// Whether they see to all of its points.
     is_pressed: bool,
 }
 
@@ -181,6 +181,7 @@ impl Rest {
         [TOGETHER * grain, most(0.5 * spin * step)]
     }
 
+    /// Renews the contacts of all these pairs.
     fn renew_all(&mut self, bodies: &Bodies, pairs: &mut Pairs, stale: Vec<usize>, at: (RestLaw, Span)) {
         let views = self.graph.pool().map(&stale, LOOKS, |&index| self.look(bodies, pairs, index, at));
         for (index, view) in stale.into_iter().zip(views) {
