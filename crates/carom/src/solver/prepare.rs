@@ -59,7 +59,7 @@ impl Frame {
     }
 
     /// A product of inertia that is [`ROUNDING`] counts as none: multiplied by a velocity it would be a denormal number, and a sweep
-    /// over those takes eight times as long.
+    /// over those takes about ten times as long.
     fn tensor(&self, world: &DMat3) -> [f64; 6] {
         let (first, second, normal) = (*world * self.first, *world * self.second, *world * self.normal);
         let moments = [first.dot(self.first), second.dot(self.second), normal.dot(self.normal)];
