@@ -183,7 +183,7 @@ const THREADS: [u32; 3] = [1, 2, 4];
 /// The hashes of states and events of [pile, mesh, gas, cradle, stack, crowd].
 const EXPECTED: [[u64; 2]; 6] = [
     [0x7588_a800_0277_9b10, 0x5bdf_2b38_68e6_c76e],
-    [0x7be5_3422_2bd3_e032, 0xd960_2d0e_ef94_6bc0],
+    [0xaa8d_a88e_8c2c_bbc8, 0x0c96_7cc6_0171_3c6b],
     [0xb7c9_a597_8de9_22c8, 0x12d9_d339_e94d_7830],
     [0xc1e1_fd04_731e_91a0, 0xf840_eec8_201f_e158],
     [0xe977_f0be_3005_8cc1, 0x1222_2d2a_3de1_8908],

@@ -11,7 +11,7 @@ use crate::bodies::{Bodies, ColliderRow};
 use crate::collide::Manifold;
 use crate::impacts::time_of_impact::{Approach, RestLaw};
 use crate::math::{DMat3, DVec3};
-use crate::solver::bundle::Lane;
+use crate::solver::bundle::{Lane, field};
 use crate::solver::prepare::{Remembered, Side, Terms, lane};
 use crate::step::pairs::{Pairs, Support};
 
@@ -161,8 +161,11 @@ impl Rest {
         noted.sort_by_key(|&index| pairs[index].colliders);
         noted.dedup();
         let has_left = |support: &Support| self.graph.has_left(support.contact);
-        let (gone, strayed): (Vec<usize>, Vec<usize>) =
+        let (gone, mut strayed): (Vec<usize>, Vec<usize>) =
             noted.into_iter().partition(|&index| pairs[index].supports.iter().all(has_left));
+        // One contact of several may have left for good, as a side of a mesh does.
+        let has_strayed = |support: &Support| self.graph.get(support.contact, field::STRAY) > 0.0;
+        strayed.retain(|&index| pairs[index].supports.iter().any(has_strayed));
         gone.into_iter().for_each(|index| self.end(pairs, index));
         self.renew_all(bodies, pairs, strayed, at);
         self.resting.retain(|&index| pairs[index].rests);
