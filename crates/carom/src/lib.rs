@@ -14,6 +14,8 @@
 //!
 //! # Features
 //! `deterministic` switches parry and glam to their scalar paths, for equal bits across targets.
+//!
+//! `profile` tells where the time of steps goes, phase by phase. Without it no clock is read.
 
 // Tests in here share files with those outside.
 #[cfg(test)]
@@ -52,6 +54,8 @@ mod error;
 mod fault;
 pub mod ledger;
 pub mod math;
+#[cfg(feature = "profile")]
+pub use step::profile;
 pub mod report;
 
 pub use bodies::{BodyId, BodyState};

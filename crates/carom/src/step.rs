@@ -12,6 +12,8 @@
 //! finish     overlaps out, states published, the report                      step/finish.rs
 //!            the ledger, where one is kept                                   ledger.rs
 //! ```
+//!
+//! How long each of these takes, [`profile`] tells whoever asks for it.
 
 pub(crate) mod broad_phase;
 pub(crate) mod events;
@@ -19,16 +21,19 @@ pub(crate) mod finish;
 pub(crate) mod motion;
 pub(crate) mod pairs;
 pub(crate) mod pool;
+pub mod profile;
 pub(crate) mod rest;
 
 use crate::impacts::time_of_impact::RestLaw;
 use crate::ledger::{contacts, impacts as collisions};
 use crate::world::World;
 use events::Events;
+use profile::Phase;
 use rest::Span;
 
 /// Lets `time` seconds pass in the world.
 pub(crate) fn step(world: &mut World, time: f64) {
+    let _step = profile::phase(Phase::Other);
     let substeps = world.settings.substeps.max(1);
     let law = RestLaw { gravity: world.settings.gravity, substep: time / f64::from(substeps), step: time };
     let start = world.time;
@@ -48,6 +53,8 @@ pub(crate) fn step(world: &mut World, time: f64) {
     }
     let impacts = events.finish();
     motion::finish_flight(&mut world.bodies, time, &world.pool);
+
+    let _finish = profile::phase(Phase::Finish);
     contacts::settle(&mut world.bodies);
     collisions::book(&mut world.bodies, &impacts);
 

@@ -20,6 +20,7 @@ use super::bundle::{Bundle, Lane, POINTS, field};
 use super::kernels::Work;
 use super::lanes::{LANES, Line, Machine, Row};
 use crate::step::pool::Pool;
+use crate::step::profile::{self, Phase};
 use islands::Islands;
 use std::sync::Arc;
 
@@ -205,6 +206,7 @@ impl Graph {
     /// They are asked for work only in islands whose bodies move faster than `lively` against each other: near rest their
     /// work is noise.
     pub fn begin(&mut self, velocities: &mut [Row], [margin, lively]: [f64; 2], substep: f64) {
+        let _phase = profile::phase(Phase::Solve);
         let before = velocities.to_vec();
         self.resume((&before, velocities), [margin as f32, (1.0 / substep) as f32]);
         self.find_islands(velocities.len());

@@ -19,6 +19,7 @@ mod tree;
 use crate::bodies::{Bodies, ColliderRow, WORLD_ROW};
 use crate::math::DVec3;
 use crate::shape::Shape;
+use crate::step::profile::{self, Phase};
 use bounds::{Bounds, present_bounds, swept_bounds};
 use forecast::Forecast;
 use tree::Tree;
@@ -109,6 +110,7 @@ impl BroadPhase {
 
     /// Finds the pairs that are new because of new boxes in a step of `time` seconds.
     pub fn find_pairs(&mut self, bodies: &Bodies, time: f64) {
+        let _phase = profile::phase(Phase::Find);
         self.time += self.step;
         self.step = time;
         self.grow(bodies.states.len());

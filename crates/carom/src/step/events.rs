@@ -20,6 +20,7 @@ use crate::report::Impact;
 use crate::step::broad_phase::{BroadPhase, order};
 use crate::step::motion::{advance, rouse, set_pace};
 use crate::step::pairs::Pairs;
+use crate::step::profile::{self, Phase};
 use crate::step::rest::{Rest, Span};
 pub(crate) use agenda::Agenda;
 use agenda::Event;
@@ -82,10 +83,8 @@ impl<'a> Events<'a> {
         self.pairs.watch_again(self.bodies, self.agenda.rerouted.drain(..), self.law.step);
         self.rest.adopt(self.bodies, self.pairs, self.law, span);
         let renewed = self.rest.hold(self.bodies, self.pairs, self.law, span);
-        for &row in &renewed {
-            self.claim_anew(row, span.from);
-            self.agenda.is_renewed[row] = true;
-        }
+        self.claim_anew(&renewed, span.from);
+        renewed.iter().for_each(|&row| self.agenda.is_renewed[row] = true);
         self.pairs.watch_again(self.bodies, renewed.iter().copied(), self.law.step);
         self.ask_due(span);
         renewed.into_iter().for_each(|row| self.agenda.is_renewed[row] = false);
@@ -102,6 +101,7 @@ impl<'a> Events<'a> {
 
     /// Asks the pairs that nobody has asked for this long, or whose bodies have got new paths since.
     fn ask_due(&mut self, span: Span) {
+        let _phase = profile::phase(Phase::Ask);
         let mut due = std::mem::take(&mut self.agenda.due);
         for number in 0..self.pairs.count_of_watched() {
             let index = self.pairs.watched(number);
@@ -195,6 +195,7 @@ impl<'a> Events<'a> {
     }
 
     fn touch(&mut self, index: usize, span: Span) {
+        let _phase = profile::phase(Phase::Strike);
         let (colliders, rows) = (self.pairs[index].colliders, self.pairs[index].rows);
         let time = span.from;
         if self.pairs[index].sensor {
@@ -283,8 +284,9 @@ impl<'a> Events<'a> {
         if row == WORLD_ROW {
             return;
         }
+        let _phase = profile::phase(Phase::Ask);
         self.agenda.rerouted.push(row);
-        self.claim_anew(row, span.from);
+        self.claim_anew(&[row], span.from);
         for number in 0..self.pairs.count_of_row(row) {
             let index = self.pairs.of_row(row, number);
             if !self.pairs[index].now.is_sensed {
@@ -293,13 +295,16 @@ impl<'a> Events<'a> {
         }
     }
 
-    /// Looks for new neighbours of a body if its path could lead out of its boxes.
-    fn claim_anew(&mut self, row: usize, time: f64) {
-        self.broad_phase.move_within_step(self.bodies, row);
-        for &colliders in self.broad_phase.found() {
-            if let Some(new) = self.pairs.add(self.bodies, colliders) {
-                // To be asked by whoever asks all pairs of this body.
-                self.pairs[new].now.asked_until = time;
+    /// Looks for new neighbours of those bodies whose paths could lead out of their boxes.
+    fn claim_anew(&mut self, rows: &[usize], time: f64) {
+        let _phase = profile::phase(Phase::Find);
+        for &row in rows {
+            self.broad_phase.move_within_step(self.bodies, row);
+            for &colliders in self.broad_phase.found() {
+                if let Some(new) = self.pairs.add(self.bodies, colliders) {
+                    // To be asked by whoever asks all pairs of this body.
+                    self.pairs[new].now.asked_until = time;
+                }
             }
         }
     }

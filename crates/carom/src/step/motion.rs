@@ -6,6 +6,7 @@ use crate::impacts::time_of_impact::RestLaw;
 use crate::ledger::flights::{flown, kept_to_plan};
 use crate::math::DVec3;
 use crate::step::pool::Pool;
+use crate::step::profile::{self, Phase};
 
 /// Sets all clocks to the start of a step of `time` seconds, and what gravity and the user's forces do during it.
 pub(crate) fn begin_flight(bodies: &mut Bodies, gravity: DVec3, time: f64) {
@@ -67,6 +68,7 @@ pub(crate) fn advance(bodies: &mut Bodies, row: usize, time: f64) {
 
 /// The same for many, shared out among the threads of `pool`.
 pub(crate) fn advance_all(bodies: &mut Bodies, rows: &[usize], time: f64, pool: &Pool) {
+    let _phase = profile::phase(Phase::Fly);
     if !pool.shares(rows.len(), FLIGHTS) {
         return rows.iter().for_each(|&row| advance(bodies, row, time));
     }

@@ -19,6 +19,7 @@ mod watch;
 
 use crate::bodies::{Bodies, WORLD_ROW};
 use crate::step::broad_phase::{BroadPhase, ColliderPair};
+use crate::step::profile::{self, Phase};
 pub(crate) use pair::{Pair, Support};
 use watch::Watch;
 
@@ -45,6 +46,7 @@ impl Pairs {
     /// Starts a step: adds the pairs that the broad phase has found, and takes out those that are no longer near; these are
     /// returned if they rest.
     pub fn update(&mut self, bodies: &Bodies, broad_phase: &mut BroadPhase) -> Vec<Pair> {
+        let _phase = profile::phase(Phase::Find);
         for index in self.changed.drain(..) {
             if let Some(pair) = &mut self.list[index as usize] {
                 pair.begin_step();
@@ -73,6 +75,7 @@ impl Pairs {
 
     /// Ends a step of `time` seconds: what pairs have foreseen for its end holds from now on.
     pub fn end_step(&mut self, bodies: &Bodies, time: f64) {
+        let _phase = profile::phase(Phase::Watch);
         for &index in &self.changed {
             if let Some(pair) = &mut self.list[index as usize] {
                 pair.end_step(bodies, time);

@@ -40,6 +40,7 @@ use crate::solver::rows::Rows;
 use crate::step::motion::advance;
 use crate::step::pairs::{Pair, Pairs, Support};
 use crate::step::pool::Pool;
+use crate::step::profile::{self, Phase};
 use crowds::Crowds;
 use std::sync::Arc;
 
@@ -93,6 +94,7 @@ impl Rest {
         (pairs, parted): (&mut Pairs, Vec<Pair>),
         law: RestLaw,
     ) {
+        let _phase = profile::phase(Phase::Crowds);
         self.rows.grow(bodies.states.len());
         parted.iter().for_each(|pair| self.drop_contacts(pair));
         self.resting.retain(|&index| pairs.rests(index));
@@ -145,6 +147,7 @@ impl Rest {
 
     /// Gives contacts to the pairs that have come to rest against each other by `time`.
     pub fn adopt(&mut self, bodies: &mut Bodies, pairs: &mut Pairs, law: RestLaw, span: Span) {
+        let _phase = profile::phase(Phase::Adopt);
         let margin = law.contact_margin();
         for number in 0..pairs.count_of_watched() {
             let index = pairs.watched(number);
@@ -166,6 +169,7 @@ impl Rest {
 
     /// Gives contacts to a pair at the start of `span`.
     pub fn take(&mut self, bodies: &mut Bodies, pairs: &mut Pairs, index: usize, at: (RestLaw, Span)) {
+        let _phase = profile::phase(Phase::Renew);
         for row in pairs[index].rows {
             bodies.wake(row);
             advance(bodies, row, at.1.from);

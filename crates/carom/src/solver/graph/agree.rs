@@ -12,6 +12,7 @@ use super::{Color, Graph};
 use crate::solver::bundle::{Bundle, field};
 use crate::solver::direct::{self, Mobility};
 use crate::solver::lanes::{LANES, Row};
+use crate::step::profile::{self, Phase};
 
 /// How far islands are swept.
 #[derive(Clone, Copy, Debug)]
@@ -150,6 +151,7 @@ impl Graph {
         (effort, quiet, open): (Effort, &[bool], &[Spot]),
         mobility: impl Fn(u32) -> Option<Mobility> + Sync,
     ) {
+        let _phase = profile::phase(Phase::Direct);
         let mut is_due = vec![false; quiet.len()];
         for &(color, index) in open {
             let bundle = &self.colors[color].bundles[index];

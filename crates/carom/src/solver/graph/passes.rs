@@ -8,6 +8,7 @@ use crate::solver::bundle::Bundle;
 use crate::solver::kernels::{Begin, Measure, Sweep, SweepNormals};
 use crate::solver::lanes::{LANES, Machine, Row};
 use crate::solver::rows::SharedRows;
+use crate::step::profile::{self, Phase};
 
 /// Bundles that are worth a thread's while: a sweep over so many takes some microseconds. A colour with less than twice as many
 /// stays with the caller.
@@ -59,6 +60,7 @@ impl Graph {
     /// Finds all separations from the bodies' drifts; comes to the contacts whose bodies have strayed too far from each other, or
     /// that have left the reach of theirs.
     pub fn measure(&mut self, drifts: &[Row]) -> Vec<ContactId> {
+        let _phase = profile::phase(Phase::Measure);
         let machine = self.machine;
         let mut noted = Vec::new();
         for color in self.order() {
@@ -98,6 +100,7 @@ impl Graph {
         chosen: Option<&[Chosen]>,
         agreement: f32,
     ) -> Vec<Spot> {
+        let _phase = profile::phase(Phase::Sweep);
         let velocities = SharedRows::new(velocities);
         let machine = self.machine;
         let mut open = Vec::new();

@@ -5,6 +5,7 @@
 
 use super::{Entry, Pairs};
 use crate::bodies::{Bodies, WORLD_ROW};
+use crate::step::profile::{self, Phase};
 
 /// A limit allows for a turn of this angle (rad) and for a path of this share of the body's size, or for what the body's
 /// speed takes it to in so many steps more.
@@ -48,6 +49,7 @@ const NO_LIMIT: (f64, f64) = (f64::NEG_INFINITY, f64::NEG_INFINITY);
 impl Pairs {
     /// Starts a step of `time` seconds in which contacts hold what is up to `margin` (m) apart.
     pub fn begin_watch(&mut self, bodies: &Bodies, (time, margin): (f64, f64)) {
+        let _phase = profile::phase(Phase::Watch);
         let watch = &mut self.watch;
         watch.limits.resize(bodies.states.len(), NO_LIMIT);
         watch.limits[WORLD_ROW] = (0.0, 0.0);
@@ -70,6 +72,7 @@ impl Pairs {
 
     /// Sees to it that all pairs are watched that could meet before `time`, given that only the paths of these rows are new.
     pub fn watch_again(&mut self, bodies: &Bodies, rows: impl Iterator<Item = usize>, time: f64) {
+        let _phase = profile::phase(Phase::Watch);
         for row in rows {
             let way = bodies.way(row, time);
             let limit = &mut self.watch.limits[row];

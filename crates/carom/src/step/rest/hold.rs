@@ -13,6 +13,7 @@ use crate::solver::lanes::Row;
 use crate::solver::rows::Rows;
 use crate::step::motion::{advance_all, free_influence, set_pace};
 use crate::step::pairs::Pairs;
+use crate::step::profile::{self, Phase};
 
 /// Speeds in units of what gravity does in a substep. Velocities agree when a sweep changes them by no more than the first; where
 /// they are solved directly, when nothing is further off than the second.
@@ -60,6 +61,7 @@ impl Rest {
 
     /// Solves, and gives the impulses found to the bodies.
     fn push(&mut self, bodies: &mut Bodies, pairs: &Pairs, (law, span): (RestLaw, Span)) -> Vec<usize> {
+        let _phase = profile::phase(Phase::Give);
         let substep = span.until - span.from;
         let is_rough = self.rough_rows(bodies.states.len(), pairs);
         let rows = self.rows.held().to_vec();
@@ -120,6 +122,7 @@ impl Rest {
 
     /// Finds impulses with which all velocities agree; `gravity` is what it does in a substep, m/s.
     fn solve(&mut self, bodies: &Bodies, gravity: f64) {
+        let _phase = profile::phase(Phase::Solve);
         let effort = Effort {
             agreement: (AGREEMENT * gravity).max(1e-7) as f32,
             exactness: (EXACTNESS * gravity).max(1e-7) as f32,

@@ -6,6 +6,7 @@ use crate::impacts::time_of_impact::RestLaw;
 use crate::ledger::contacts::{pushed_out, shifted, stocks};
 use crate::math::{DVec3, rotation_from_vector};
 use crate::solver::lanes::{Row, WRITABLE};
+use crate::step::profile::{self, Phase};
 
 /// Share of an overlap that is pushed out at the end of a step.
 const PUSH_OUT: f32 = 0.5;
@@ -15,6 +16,7 @@ impl Rest {
     /// their common centre of mass stays. Bodies that pass each other get their lines of motion moved apart, which changes their angular
     /// momentum about any point; to give that to their spins would be a blow that nobody has struck.
     pub fn push_out(&mut self, bodies: &mut Bodies, law: RestLaw) {
+        let _phase = profile::phase(Phase::PushOut);
         let held = self.rows.held().to_vec();
         for &row in &held {
             self.rows.read_drift(bodies, row);

@@ -14,6 +14,7 @@ use crate::math::{DMat3, DVec3};
 use crate::solver::bundle::{Lane, field};
 use crate::solver::prepare::{Remembered, Side, Terms, lane};
 use crate::step::pairs::{Pairs, Support};
+use crate::step::profile::{self, Phase};
 
 /// Motion of a body, as a share of its smallest collider's reach or in radians, after which its contacts are renewed.
 const DRIFT: f64 = 5e-3;
@@ -140,6 +141,7 @@ impl Rest {
         held: &[usize],
         at: (RestLaw, Span),
     ) {
+        let _phase = profile::phase(Phase::Renew);
         let mut has_moved = vec![false; bodies.states.len()];
         for &row in held {
             let [way, turn] = self.rows.read_drift(bodies, row);
