@@ -94,7 +94,7 @@ mod tests {
     #[test]
     fn the_world_gets_as_many_threads_as_were_asked_for() {
         for threads in [1, 2, 3] {
-            let world = world(Conditions { gravity: [0.0; 3], threads });
+            let world = world(Conditions { gravity: [0.0; 3], threads, bodies: 0 });
             assert_eq!(world.settings().threads as usize, threads);
         }
     }
