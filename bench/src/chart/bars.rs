@@ -2,7 +2,7 @@
 
 use super::axis::Axis;
 use super::drawing::{Anchor, Drawing, Place, color};
-use super::{Frame, Grid, LINE, MARGIN, engines, scenes, vertical_axis};
+use super::{Frame, Grid, LINE, MARGIN, WIDTH, engines, scenes, vertical_axis};
 use crate::report::threads;
 use crate::rounds::{Case, Results};
 use crate::table::short;
@@ -11,6 +11,11 @@ use crate::table::short;
 const FILLED: f64 = 0.8;
 /// No bar is wider, pixels.
 const WIDEST: f64 = 44.0;
+/// A number above a bar has this much space, so that it does not run into the next one, pixels.
+const NUMBER: f64 = 33.0;
+/// Share of a group's space that its bars have; what a panel needs to their left and right, pixels.
+const GROUP: f64 = 0.9;
+const SIDES: [f64; 2] = [44.0, 16.0];
 
 /// Draws below `top`; returns where it ends.
 pub fn draw(drawing: &mut Drawing, results: &Results, top: f64) -> f64 {
@@ -21,7 +26,9 @@ pub fn draw(drawing: &mut Drawing, results: &Results, top: f64) -> f64 {
         drawing.text(Place(x + 18.0, top), Anchor::Start, engine);
         x += 110.0;
     }
-    let grid = Grid { top: top + 22.0, columns: scenes.len().clamp(1, 3), height: 250.0 };
+    let groups = scenes.iter().map(|scene| results.cases.iter().filter(|case| case.scene == *scene).count());
+    let columns = columns(groups.max().unwrap_or(0) * engines.len());
+    let grid = Grid { top: top + 22.0, columns: scenes.len().clamp(1, columns), height: 250.0 };
     for (index, scene) in scenes.iter().enumerate() {
         let cases: Vec<&Case> = results.cases.iter().filter(|case| case.scene == *scene).collect();
         panel(drawing, grid.cell(index), &engines, &cases);
@@ -29,14 +36,20 @@ pub fn draw(drawing: &mut Drawing, results: &Results, top: f64) -> f64 {
     grid.bottom(scenes.len())
 }
 
+/// So many panels side by side, three at most, leave each of a panel's bars enough space.
+fn columns(bars: usize) -> usize {
+    let least = bars as f64 * NUMBER / GROUP + SIDES.iter().sum::<f64>();
+    (((WIDTH - 2.0 * MARGIN) / least) as usize).clamp(1, 3)
+}
+
 /// One scene.
 fn panel(drawing: &mut Drawing, cell: Frame, engines: &[&str], cases: &[&Case]) {
     drawing.heading(Place(cell.left, cell.top + 14.0), &cases[0].scene);
     drawing.small(Place(cell.left, cell.top + 14.0 + LINE), Anchor::Start, &subtitle(cases));
     let frame = Frame {
-        left: cell.left + 44.0,
+        left: cell.left + SIDES[0],
         top: cell.top + 58.0,
-        right: cell.right - 16.0,
+        right: cell.right - SIDES[1],
         bottom: cell.bottom - 44.0,
     };
     let summaries = cases.iter().flat_map(|case| &case.entrants).filter_map(|e| e.summary.as_ref());
@@ -47,7 +60,7 @@ fn panel(drawing: &mut Drawing, cell: Frame, engines: &[&str], cases: &[&Case]) 
     for (index, case) in cases.iter().enumerate() {
         let middle = frame.left + (index as f64 + 0.5) * group;
         drawing.small(Place(middle, frame.bottom + LINE), Anchor::Middle, &threads(case.threads));
-        bars(drawing, case, engines, &Group { middle, width: 0.9 * group, axis: &axis });
+        bars(drawing, case, engines, &Group { middle, width: GROUP * group, axis: &axis });
     }
 }
 
@@ -79,5 +92,15 @@ fn bars(drawing: &mut Drawing, case: &Case, engines: &[&str], group: &Group) {
         drawing.bar(Place(x, foot), [FILLED * space, foot - y], color(index));
         let mark = if summary.whole() { "" } else { "*" };
         drawing.small(Place(x, y - 4.0), Anchor::Middle, &(short(summary.least) + mark));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn many_bars_get_wide_panels() {
+        assert_eq!([1, 5, 6, 8, 20].map(columns), [3, 3, 3, 2, 1]);
     }
 }
