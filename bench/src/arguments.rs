@@ -60,6 +60,10 @@ pub struct Arguments {
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub settle: Option<f64>,
 
+    /// Instead of comparing: what the steps of Carom spend their time on; needs the cargo feature `profile`
+    #[arg(long, conflicts_with_all = ["engines", "settle", "sizes"])]
+    pub phases: bool,
+
     /// A measurement that takes longer stops where it is, and says so
     #[arg(long, value_name = "SECONDS", default_value = "600", value_parser = limit)]
     pub limit: f64,
@@ -135,6 +139,11 @@ impl Arguments {
 
     /// The engines asked for, each once, those to compare with first.
     pub fn engines(&self) -> Result<Vec<&'static engine::Entry>, String> {
+        if self.phases {
+            let telling: Vec<_> = ENGINES.iter().filter(|entry| entry.tells_phases).collect();
+            let nobody = "no engine here tells its phases; build with `--features profile`";
+            return if telling.is_empty() { Err(nobody.to_string()) } else { Ok(telling) };
+        }
         let Some(Names(names)) = &self.engines else { return Ok(ENGINES.iter().collect()) };
         let known = ENGINES.iter().map(|entry| entry.name);
         if let Some(name) = names.iter().find(|name| engine::find(name).is_none()) {
@@ -219,6 +228,13 @@ mod tests {
     }
 
     #[test]
+    fn phases_are_for_who_tells_them() {
+        let engines = parse("bench --phases").engines();
+        assert_eq!(engines.is_ok(), cfg!(feature = "profile"));
+        assert!(engines.iter().flatten().all(|entry| entry.name == "carom"));
+    }
+
+    #[test]
     fn what_is_not_there_is_named() {
         assert!(parse("bench --scene pyramids").scenes().err().unwrap().contains("pile_boxes"));
         assert!(parse("bench --engine bullet").engines().err().unwrap().contains("carom"));
@@ -229,6 +245,7 @@ mod tests {
             "--settle inf",
             "--friction -1",
             "--sizes 9 --count 9",
+            "--phases --settle 9",
         ] {
             assert!(Arguments::try_parse_from(format!("bench {bad}").split_whitespace()).is_err(), "{bad}");
         }

@@ -10,6 +10,7 @@ mod jolt;
 #[cfg(feature = "rapier")]
 mod rapier;
 
+use crate::phase::Phase;
 use crate::quality::Pose;
 use crate::scene::{Body, Scene};
 use glam::DVec3;
@@ -33,6 +34,12 @@ pub trait Engine {
 
     /// The velocity of the body's centre of mass as the engine reports it, m/s.
     fn velocity(&self, body: usize) -> DVec3;
+
+    /// What this thread's steps have spent their time on since this was asked before, in the order of a step; nothing
+    /// from an engine that does not tell.
+    fn phases(&mut self) -> Vec<Phase> {
+        Vec::new()
+    }
 }
 
 /// What a world has to know before the first body.
@@ -56,6 +63,8 @@ pub struct Entry {
     pub settings: &'static str,
     /// With how many threads it can run at most.
     pub max_threads: usize,
+    /// Whether it tells what it spends its time on.
+    pub tells_phases: bool,
     /// An empty world.
     pub start: fn(Conditions) -> Box<dyn Engine>,
 }

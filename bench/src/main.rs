@@ -6,6 +6,7 @@
 //! | `scene` | what is simulated, the same for every engine |
 //! | `engine` | every engine behind one small trait |
 //! | `worker` | one measurement, in a process of its own |
+//! | `phase` | what an engine spends the time of its steps on |
 //! | `quality` | figures from poses alone, the same code for every engine |
 //! | `rounds` | all measurements, interleaved |
 //! | `summary` | what the rounds of one engine come to |
@@ -19,6 +20,7 @@ mod chart;
 mod curve;
 mod engine;
 mod machine;
+mod phase;
 mod quality;
 mod report;
 mod rounds;

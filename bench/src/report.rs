@@ -1,5 +1,6 @@
 //! What is printed.
 
+mod phases;
 mod sizes;
 
 use crate::quality::{Quality, Settling};
@@ -20,6 +21,9 @@ pub fn text(results: &Results) -> String {
             text += "  no engine here runs with so many threads\n";
         } else if results.settle {
             text += &settling(case).text();
+        } else if phases::measured(case) {
+            // Times with so many clocks read in between are for shares, not for comparisons.
+            text += &phases::text(case);
         } else {
             text += &speed(case).text();
             text.push('\n');

@@ -136,6 +136,7 @@ fn job(arguments: &Arguments, scene: &scene::Entry, size: Size, threads: usize) 
         friction: arguments.friction,
         steps: settle.or(arguments.steps).or(alike),
         settle: settle.is_some(),
+        phases: arguments.phases,
         limit: arguments.limit,
     }
 }

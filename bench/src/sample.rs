@@ -29,6 +29,7 @@ pub fn measurement(step_ms: &[f64], steps: usize, hash: &str) -> Measurement {
         memory_peak: 10.0,
         quality,
         settling: None,
+        phases: Vec::new(),
     }
 }
 
@@ -45,6 +46,7 @@ pub fn entrant(engine: &str, bodies: usize, ms: f64) -> Entrant {
         friction: None,
         steps: None,
         settle: false,
+        phases: false,
         limit: 600.0,
     };
     Entrant {

@@ -2,6 +2,7 @@
 
 use crate::engine::{self, DT, Engine};
 use crate::machine;
+use crate::phase::Phase;
 use crate::quality::{Judge, Pose, Poses, Quality, Settling, Watch};
 use crate::scene::{self, Scene, Size};
 use glam::DVec3;
@@ -30,6 +31,9 @@ pub struct Job {
     pub steps: Option<usize>,
     /// Watch for rest from the first step on.
     pub settle: bool,
+    /// Ask what steps spend their time on.
+    #[serde(default)]
+    pub phases: bool,
     /// Stop when it takes longer than this, s.
     pub limit: f64,
 }
@@ -55,6 +59,9 @@ pub struct Measurement {
     pub quality: Quality,
     /// When everything came to rest; only where rest was watched for.
     pub settling: Option<Settling>,
+    /// What steps spent their time on; nothing where that was not asked or is not told.
+    #[serde(default)]
+    pub phases: Vec<Phase>,
 }
 
 /// Answers a job, and ends the process if a single step takes so long that the limit is never looked at.
@@ -100,10 +107,12 @@ fn measure(job: &Job) -> Result<Measurement, String> {
     let bodies = scene.bodies.len();
     let energy_start = judge.energy(&poses(&*world, bodies), &velocities(&*world, bodies));
     let mut run = Run::new(&scene, job.settle);
+    world.phases();
     while run.step_ms.len() < scene.steps && start.elapsed().as_secs_f64() < job.limit {
         run.step(&mut *world, &judge);
     }
     let memory_peak = machine::peak_memory();
+    let phases = if job.phases { world.phases() } else { Vec::new() };
 
     let (end, velocities) = (poses(&*world, bodies), velocities(&*world, bodies));
     let quality = Quality {
@@ -135,6 +144,7 @@ fn measure(job: &Job) -> Result<Measurement, String> {
         memory_peak,
         quality,
         settling: run.settling,
+        phases,
     })
 }
 
@@ -207,6 +217,7 @@ mod tests {
             friction: None,
             steps: Some(90),
             settle: true,
+            phases: false,
             limit: 60.0,
         }
     }
@@ -228,6 +239,22 @@ mod tests {
         assert_eq!((timed.quality.motion.steps, timed.settling), (60, None));
         let cut = measure(&Job { limit: 0.0, ..job("carom") }).unwrap();
         assert_eq!((cut.steps, cut.step_ms.len()), (90, 0));
+    }
+
+    /// A phase has the time that no phase within it has, so that together they have the time of the steps: as it was
+    /// measured from outside, but for what it takes to call `step`.
+    #[test]
+    #[cfg(feature = "profile")]
+    fn phases_come_to_the_time_of_the_steps() {
+        for threads in [1, 2] {
+            let job = Job { base: Some(12), threads, settle: false, phases: true, ..job("carom") };
+            let found = measure(&job).unwrap();
+            let told: f64 = found.phases.iter().map(|phase| phase.ms).sum();
+            let steps: f64 = found.step_ms.iter().sum();
+            assert!(told < steps && told > 0.95 * steps, "{told} of {steps} ms");
+            assert_eq!(found.phases[0].calls, 90);
+        }
+        assert!(measure(&job("carom")).unwrap().phases.is_empty());
     }
 
     #[test]

@@ -15,6 +15,7 @@ pub const ENTRY: Entry = Entry {
     version: "Box3D 0.1, box3d-sys 0.1.16",
     settings: "b3DefaultWorldDef(): contacts of 30 Hz; 4 substeps",
     max_threads: c::B3_MAX_WORKERS as usize,
+    tells_phases: false,
     start,
 };
 

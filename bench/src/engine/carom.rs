@@ -12,6 +12,7 @@ pub const ENTRY: Entry = Entry {
     version: "carom, this checkout",
     settings: "Settings::default(): 4 substeps",
     max_threads: u32::MAX as usize,
+    tells_phases: cfg!(feature = "profile"),
     start,
 };
 
@@ -81,6 +82,40 @@ impl Engine for Carom {
 
     fn velocity(&self, body: usize) -> DVec3 {
         self.world[self.bodies[body]].linear_velocity().as_dvec3()
+    }
+
+    #[cfg(feature = "profile")]
+    fn phases(&mut self) -> Vec<crate::phase::Phase> {
+        let told = |spent: carom::profile::Spent| crate::phase::Phase {
+            name: name(spent.phase).to_string(),
+            ms: spent.time.as_secs_f64() * 1e3,
+            calls: spent.calls,
+        };
+        carom::profile::take().into_iter().map(told).collect()
+    }
+}
+
+/// A phase for people.
+#[cfg(feature = "profile")]
+fn name(phase: carom::profile::Phase) -> &'static str {
+    use carom::profile::Phase;
+    match phase {
+        Phase::Other => "other",
+        Phase::Find => "find: broad phase",
+        Phase::Crowds => "find: crowds",
+        Phase::Watch => "find: pairs to watch",
+        Phase::Adopt => "contacts: come to rest",
+        Phase::Renew => "contacts: made, renewed",
+        Phase::Measure => "contacts: measured",
+        Phase::Solve => "solve: islands, choice",
+        Phase::Sweep => "solve: sweeps",
+        Phase::Direct => "solve: directly",
+        Phase::Give => "give: impulses to paths",
+        Phase::Ask => "happen: time of impact",
+        Phase::Strike => "happen: touches, strikes",
+        Phase::Fly => "fly: advance",
+        Phase::PushOut => "finish: push out",
+        Phase::Finish => "finish: publish, report",
     }
 }
 

@@ -14,6 +14,7 @@ pub const ENTRY: Entry = Entry {
     version: "Jolt 5.6.0, oxijolt 1.5.0",
     settings: "WorldSettings::default(): 10 velocity and 2 position iterations, 1 collision step; no damping",
     max_threads: WorldSettings::MAX_CONCURRENCY as usize,
+    tells_phases: false,
     start,
 };
 

@@ -16,6 +16,7 @@ pub const ENTRY: Entry = Entry {
     version: "rapier3d 0.36.1, feature parallel",
     settings: "IntegrationParameters::default(): 4 solver iterations, contacts of 30 Hz (60 Hz against fixed bodies)",
     max_threads: usize::MAX,
+    tells_phases: false,
     start,
 };
 
