@@ -34,8 +34,15 @@ const SCRATCH_PER_CONTACT: u32 = 1024;
 struct Jolt {
     world: PhysicsWorld,
     bodies: Vec<BodyId>,
-    /// Hulls made so far, with the points they were made from.
-    hulls: Vec<(Arc<[[f32; 3]]>, Rc<oxijolt::Shape>)>,
+    /// Hulls made so far.
+    hulls: Vec<Hull>,
+}
+
+/// A hull that bodies share.
+struct Hull {
+    /// The points that it was made from.
+    points: Arc<[[f32; 3]]>,
+    shape: Rc<oxijolt::Shape>,
 }
 
 fn start(conditions: Conditions) -> Box<dyn Engine> {
@@ -72,14 +79,14 @@ fn mesh(mesh: &Mesh) -> oxijolt::Shape {
 impl Jolt {
     /// The hull of these points, made once for all bodies that share the list.
     fn hull(&mut self, points: &Arc<[[f32; 3]]>) -> Rc<oxijolt::Shape> {
-        if let Some((_, made)) = self.hulls.iter().find(|(of, _)| Arc::ptr_eq(of, points)) {
-            return made.clone();
+        if let Some(made) = self.hulls.iter().find(|hull| Arc::ptr_eq(&hull.points, points)) {
+            return made.shape.clone();
         }
         let vectors: Vec<Vec3> = points.iter().map(|point| vector(*point)).collect();
-        let made =
-            Rc::new(oxijolt::Shape::new_convex_hull(&vectors).expect("the scene's points span a hull"));
-        self.hulls.push((points.clone(), made.clone()));
-        made
+        let shape = oxijolt::Shape::new_convex_hull(&vectors).expect("the scene's points span a hull");
+        let shape = Rc::new(shape);
+        self.hulls.push(Hull { points: points.clone(), shape: shape.clone() });
+        shape
     }
 
     /// The form, of Jolt's own density, which is that of the scenes, and with its own rounding of edges: they lose up to
