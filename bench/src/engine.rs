@@ -50,6 +50,7 @@ pub struct Conditions {
     /// How many threads step it, the calling one among them.
     pub threads: usize,
     /// How many bodies are to come; some engines have room for so many and no more.
+    #[cfg_attr(not(feature = "jolt"), allow(dead_code, reason = "of these engines only Jolt asks"))]
     pub bodies: usize,
 }
 
