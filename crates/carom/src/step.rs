@@ -22,7 +22,7 @@ pub(crate) mod pool;
 pub(crate) mod rest;
 
 use crate::impacts::time_of_impact::RestLaw;
-use crate::ledger::{contacts, impacts as collisions};
+use crate::ledger::{contacts, flights, impacts as collisions};
 use crate::world::World;
 use events::Events;
 use rest::Span;
@@ -50,6 +50,7 @@ pub(crate) fn step(world: &mut World, time: f64) {
     motion::finish_flight(&mut world.bodies, time, &world.pool);
     contacts::settle(&mut world.bodies);
     collisions::book(&mut world.bodies, &impacts);
+    flights::book_falls(&mut world.bodies);
 
     world.rest.push_out(&mut world.bodies, law);
     finish::quarantine(world);
