@@ -30,13 +30,14 @@ pub(crate) struct Exerted {
 pub(crate) fn settle(bodies: &mut Bodies) {
     let Some(mut journal) = bodies.journal.take() else { return };
     if let Some(exerted) = journal.exerted.take() {
+        // Before the passages of what is driven become those along which contacts worked.
+        for &(row, push) in &exerted.captures {
+            journal.book_capture(bodies, (row, push), &exerted);
+        }
         for row in 0..exerted.impulses.len() {
             journal.book_push(bodies, row, &exerted);
         }
         journal.book_works(&exerted);
-        for &(row, push) in &exerted.captures {
-            journal.book_capture(bodies, (row, push), &exerted);
-        }
     }
     // Whoever is held in the next substep will be told so.
     let Journal { led, passages, .. } = &mut *journal;
