@@ -73,6 +73,7 @@ pub struct Entry {
 /// All engines that are compiled in. Carom comes first: it is what the others are compared with.
 pub const ENGINES: &[Entry] = &[
     carom::ENTRY,
+    carom::WITH_LEDGER,
     #[cfg(feature = "rapier")]
     rapier::ENTRY,
     #[cfg(feature = "box3d")]

@@ -16,6 +16,19 @@ pub const ENTRY: Entry = Entry {
     start,
 };
 
+/// The same, with its books kept: what the ledger costs.
+pub const WITH_LEDGER: Entry = Entry {
+    name: "carom+ledger",
+    version: "carom, this checkout",
+    settings: "Settings::default() and ledger: true",
+    start: |conditions| {
+        let mut world = world(conditions);
+        world.keep_ledger(true);
+        Box::new(Carom { world, bodies: Vec::new() })
+    },
+    ..ENTRY
+};
+
 struct Carom {
     world: World,
     bodies: Vec<BodyId>,

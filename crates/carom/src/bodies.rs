@@ -247,6 +247,7 @@ impl Bodies {
             velocity: description.linear_velocity.as_dvec3(),
             angular_momentum: constants.inertia(center.rotation) * spin,
         });
+        self.touch();
         self.constants.push(constants);
         self.influences.push(Influence::default());
         self.clocks.push(0.0);
@@ -378,6 +379,13 @@ impl Bodies {
             let id = BodyId { index: index as u32, generation: slot.generation };
             slot.record.as_ref().map(|record| (id, record))
         })
+    }
+
+    /// Somebody changes bodies between steps: a ledger has to look at them again.
+    pub fn touch(&mut self) {
+        if let Some(journal) = &mut self.journal {
+            journal.forget();
+        }
     }
 
     /// Rows of bodies that can move: all but the world's.

@@ -14,6 +14,7 @@ pub struct BodyMut<'world> {
 
 impl<'world> BodyMut<'world> {
     pub(crate) fn new(world: &'world mut World, id: BodyId) -> Self {
+        world.bodies.touch();
         Self { world, id }
     }
 

@@ -185,6 +185,7 @@ impl Constants {
     }
 
     /// Whether mass and inertia are all finite.
+    #[inline]
     pub fn is_regular(&self) -> bool {
         self.inverse_mass > 0.0 && self.rotor.inverse_moments.cmpgt(DVec3::ZERO).all()
     }
@@ -195,16 +196,28 @@ impl Constants {
     }
 
     /// `ω = R I⁻¹Rᵀ L` of an angular momentum, without the driven spin, rad/s.
+    #[inline]
     pub fn free_spin(&self, rotation: DQuat, momentum: DVec3) -> DVec3 {
         self.free_spins(rotation, [momentum])[0]
     }
 
+    /// Whether the body turns about all axes alike, so that turning does not change its angular velocity.
+    #[inline]
+    pub fn is_isotropic(&self) -> bool {
+        self.rotor.is_isotropic()
+    }
+
     /// Those of several angular momenta at one orientation.
+    #[inline]
     pub fn free_spins<const N: usize>(&self, rotation: DQuat, momenta: [DVec3; N]) -> [DVec3; N] {
-        let inverse = self.rotor.inverse_moments;
         if self.rotor.is_isotropic() {
-            return momenta.map(|momentum| momentum * inverse.x);
+            return momenta.map(|momentum| momentum * self.rotor.inverse_moments.x);
         }
+        self.anisotropic_spins(rotation, momenta)
+    }
+
+    fn anisotropic_spins<const N: usize>(&self, rotation: DQuat, momenta: [DVec3; N]) -> [DVec3; N] {
+        let inverse = self.rotor.inverse_moments;
         let axes = DMat3::from_quat(rotation * self.rotor.principal);
         momenta.map(|momentum| axes * (axes.mul_transpose_vec3(momentum) * inverse))
     }

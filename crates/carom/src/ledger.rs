@@ -166,8 +166,9 @@ impl Ledger {
         self.last = books;
         self.add(&books);
         let at = (self.steps, time);
-        self.worst_residual = Worst::residual(&books, &closing, bodies, at).worse(self.worst_residual.take());
-        self.worst_artefact = Worst::artefact(&books, &closing, bodies, at).worse(self.worst_artefact.take());
+        let rows = (&*journal, &*bodies);
+        self.worst_residual = Worst::residual(&books, rows, at, self.worst_residual.take());
+        self.worst_artefact = Worst::artefact(&books, rows, at, self.worst_artefact.take());
         bodies.journal = Some(journal);
     }
 

@@ -15,6 +15,9 @@ pub(crate) struct Exerted {
     pub wrenches: Vec<Wrench>,
     /// Whether each of them bounces when it is struck faster.
     pub bounces: Vec<bool>,
+    /// Row by row, what they give together: impulse, and angular impulse about the centre of mass.
+    pub impulses: Vec<DVec3>,
+    pub turns: Vec<DVec3>,
     /// Row by row, where the centres of mass are when the impulses act, or in the mean.
     pub centers: Vec<DVec3>,
     /// What rest capture gives: row, impulse, angular impulse.
@@ -23,126 +26,65 @@ pub(crate) struct Exerted {
     pub time: f64,
 }
 
-/// One of the two bodies of a contact, as the contact's mean centre sees it.
-#[derive(Clone, Copy)]
-struct Part {
-    kind: Kind,
-    /// Way (m) of the mean centre as a point of the body, and turn (rad) of the body, along which impulses work.
-    way: DVec3,
-    turn: DVec3,
-}
-
-/// Which account an impulse goes to.
-#[derive(Clone, Copy, PartialEq)]
-enum Kind {
-    /// That of a body whose mass and inertia are finite.
-    Free,
-    /// That of one of which something is infinite, in part.
-    Odd,
-    Fixed,
-    Kinematic,
-}
-
 /// Books what contacts have exerted in the substep that is over.
 pub(crate) fn settle(bodies: &mut Bodies) {
     let Some(mut journal) = bodies.journal.take() else { return };
     if let Some(exerted) = journal.exerted.take() {
-        for (wrench, &bounces) in exerted.wrenches.iter().zip(&exerted.bounces) {
-            journal.book_wrench(bodies, (wrench, bounces), &exerted);
-        }
+        // Before the passages of what is driven become those along which contacts worked.
         for &(row, push) in &exerted.captures {
             journal.book_capture(bodies, (row, push), &exerted);
         }
+        for row in 0..exerted.impulses.len() {
+            journal.book_push(bodies, row, &exerted);
+        }
+        journal.book_works(&exerted);
     }
     // Whoever is held in the next substep will be told so.
-    journal.passages.fill(Passage::default());
+    let Journal { led, passages, .. } = &mut *journal;
+    led.drain(..).for_each(|row| passages[row] = Passage::default());
     bodies.journal = Some(journal);
 }
 
 impl Journal {
-    fn book_wrench(&mut self, bodies: &Bodies, (wrench, bounces): (&Wrench, bool), exerted: &Exerted) {
-        let centers = wrench.rows.map(|row| exerted.centers[row]);
-        let parts = [0, 1].map(|side| self.part(bodies, wrench, (side, centers), exerted.time));
-        let (way, turn) = (parts[1].way - parts[0].way, parts[1].turn - parts[0].turn);
-        let rate = 1.0 / exerted.time;
-        let work = |push: [DVec3; 2]| (push[0].dot(way) + push[1].dot(turn)) * rate;
-        self.posts.loss_friction -= work(wrench.across);
-        if bounces {
-            self.posts.loss_rest_capture -= work(wrench.normal);
-        } else {
-            self.posts.loss_contact -= work(wrench.normal);
-        }
-
-        let [impulse, moment] = [wrench.impulse(), wrench.moment()];
-        let about_origin = wrench.center(centers).cross(impulse) + moment;
-        for (side, sign) in [(0, -1.0), (1, 1.0)] {
-            let (part, row) = (parts[side], wrench.rows[side]);
-            let work = sign * rate * (impulse.dot(part.way) + moment.dot(part.turn));
-            match part.kind {
-                Kind::Free => self.tallies[row].get(sign * impulse, sign * about_origin, work),
-                Kind::Fixed => self.posts.fixed.add(-sign * impulse, -sign * about_origin),
-                Kind::Kinematic => {
-                    self.posts.kinematic.add(-sign * impulse, -sign * about_origin);
-                    self.posts.work_kinematic -= work;
-                }
-                Kind::Odd => {
-                    let turn = wrench.turn(side, [impulse, moment], centers);
-                    let got = [sign * impulse, turn, centers[side]];
-                    self.give_odd(bodies, row, got, (work, exerted.time));
-                }
-            }
-            if bounces {
-                let [impulse, moment] = wrench.normal;
-                let gained = sign * rate * (impulse.dot(part.way) + moment.dot(part.turn));
-                self.tallies[row].artefacts[CAPTURE] += gained;
-            }
-        }
-    }
-
-    /// How the body of one side moves while a contact's impulses act.
-    fn part(
-        &self,
-        bodies: &Bodies,
-        wrench: &Wrench,
-        (side, centers): (usize, [DVec3; 2]),
-        time: f64,
-    ) -> Part {
-        let row = wrench.rows[side];
+    /// Books what all contacts together have given to the body of a row. What does not fly on a passage of its own gets one: that
+    /// along which the impulses worked.
+    #[inline]
+    fn book_push(&mut self, bodies: &Bodies, row: usize, exerted: &Exerted) {
+        let (impulse, turn, center) = (exerted.impulses[row], exerted.turns[row], exerted.centers[row]);
         let (constants, passage) = (&bodies.constants[row], &self.passages[row]);
-        let (kind, mut way, mut turn) = if passage.path != Path::Free {
-            let kind = if constants.is_regular() { Kind::Free } else { Kind::Odd };
-            (kind, passage.way, passage.turn)
-        } else if row == WORLD_ROW || constants.is_movable() {
+        if passage.path != Path::Free && constants.is_regular() {
+            let work = (impulse.dot(passage.way) + turn.dot(passage.turn)) * (1.0 / exerted.time);
+            self.tallies[row].get(impulse, center.cross(impulse) + turn, work);
+        } else if passage.path != Path::Free || (row != WORLD_ROW && !constants.is_movable()) {
+            self.book_driven(bodies, row, exerted);
+        } else if impulse != DVec3::ZERO || turn != DVec3::ZERO {
             // The ground, and what sleeps.
-            return Part { kind: Kind::Fixed, way: DVec3::ZERO, turn: DVec3::ZERO };
-        } else {
-            (Kind::Kinematic, bodies.states[row].velocity * time, DVec3::ZERO)
-        };
-        if kind != Kind::Free {
-            let rotation = if kind == Kind::Odd { passage.rotation } else { bodies.states[row].rotation };
-            turn += constants.driven_velocity(rotation) * time;
-            if constants.inverse_mass == 0.0 {
-                way = bodies.states[row].velocity * time;
-            }
+            self.posts.fixed.add(-impulse, -(center.cross(impulse) + turn));
         }
-        Part { kind, way: way + turn.cross(wrench.offset(side, centers)), turn }
     }
 
-    /// A body of which something is infinite gets an impulse at its centre and an angular impulse that do this `work`: what it does
-    /// not take goes to the account of what is driven.
-    fn give_odd(
-        &mut self,
-        bodies: &Bodies,
-        row: usize,
-        [impulse, turn, center]: [DVec3; 3],
-        (work, time): (f64, f64),
-    ) {
-        let (constants, passage) = (&bodies.constants[row], self.passages[row]);
-        let taken = constants.turning_part(passage.rotation, turn);
-        let mut linear = impulse;
-        let mut kept = taken.dot(passage.turn) / time;
+    /// The same of what is kinematic, or has an infinite mass or inertia: what it does not take goes to the account of what is driven.
+    fn book_driven(&mut self, bodies: &Bodies, row: usize, exerted: &Exerted) {
+        let (impulse, turn, center) = (exerted.impulses[row], exerted.turns[row], exerted.centers[row]);
+        let (state, constants, passage) = (&bodies.states[row], &bodies.constants[row], self.passages[row]);
+        let is_led = passage.path != Path::Free;
+        let rotation = if is_led { self.rotations[row] } else { state.rotation };
+        let mut driven = passage;
+        driven.turn += constants.driven_velocity(rotation) * exerted.time;
+        if constants.inverse_mass == 0.0 {
+            driven.way = state.velocity * exerted.time;
+        }
+        self.lead(row, driven);
+        let work = (impulse.dot(driven.way) + turn.dot(driven.turn)) / exerted.time;
+        if !is_led {
+            self.posts.kinematic.add(-impulse, -(center.cross(impulse) + turn));
+            self.posts.work_kinematic -= work;
+            return;
+        }
+        let taken = constants.turning_part(rotation, turn);
+        let (mut linear, mut kept) = (impulse, taken.dot(passage.turn) / exerted.time);
         if constants.inverse_mass > 0.0 {
-            kept += impulse.dot(passage.way) / time;
+            kept += impulse.dot(passage.way) / exerted.time;
         } else {
             self.posts.kinematic.add(-impulse, -center.cross(impulse));
             linear = DVec3::ZERO;
@@ -150,6 +92,47 @@ impl Journal {
         self.posts.work_kinematic -= work - kept;
         self.posts.kinematic.angular += taken - turn;
         self.tallies[row].get(linear, center.cross(linear) + taken, kept);
+    }
+
+    /// Books the work of each contact, cause by cause.
+    ///
+    /// The mean centre at the share s of the way d between the centres moves against itself, as a point of the one body and of the
+    /// other, by `Δx_b − Δx_a − ((1 − s)·φ_b + s·φ_a) × d`, with the ways Δx of the centres and the turns φ.
+    fn book_works(&mut self, exerted: &Exerted) {
+        let rate = 1.0 / exerted.time;
+        let [mut friction, mut contact, mut capture] = [0.0; 3];
+        for (wrench, &bounces) in exerted.wrenches.iter().zip(&exerted.bounces) {
+            let [a, b] = wrench.rows.map(|row| &self.passages[row]);
+            let [center_a, center_b] = wrench.rows.map(|row| exerted.centers[row]);
+            let turn = b.turn - a.turn;
+            let mean_turn = b.turn - turn * wrench.share;
+            let way = (b.way - a.way) - mean_turn.cross(center_b - center_a);
+            let work = |push: [DVec3; 2]| push[0].dot(way) + push[1].dot(turn);
+            friction += work(wrench.across);
+            let normal = work(wrench.normal);
+            if bounces {
+                capture += normal;
+                self.book_bounce(wrench, exerted);
+            } else {
+                contact += normal;
+            }
+        }
+        self.posts.loss_friction -= friction * rate;
+        self.posts.loss_contact -= contact * rate;
+        self.posts.loss_rest_capture -= capture * rate;
+    }
+
+    /// Notes what a contact that would bounce does to its two bodies.
+    fn book_bounce(&mut self, wrench: &Wrench, exerted: &Exerted) {
+        let centers = wrench.rows.map(|row| exerted.centers[row]);
+        let [impulse, moment] = wrench.normal;
+        for (side, sign) in [(0, -1.0), (1, 1.0)] {
+            let row = wrench.rows[side];
+            let passage = &self.passages[row];
+            let way = passage.way + passage.turn.cross(wrench.offset(side, centers));
+            let work = sign * (impulse.dot(way) + moment.dot(passage.turn)) / exerted.time;
+            self.tallies[row].artefacts[CAPTURE] += work;
+        }
     }
 
     fn book_capture(
@@ -161,20 +144,19 @@ impl Journal {
         if bodies.constants[row].inverse_mass == 0.0 {
             impulse = DVec3::ZERO;
         }
-        let passage = self.passages[row];
-        let work = (impulse.dot(passage.way) + turn.dot(passage.turn)) / at.time;
+        let (passage, tally) = (&self.passages[row], &mut self.tallies[row]);
+        let work = (impulse.dot(passage.way) + turn.dot(passage.turn)) * (1.0 / at.time);
         let moment = at.centers[row].cross(impulse) + turn;
         self.posts.fixed.add(impulse, moment);
         self.posts.loss_rest_capture -= work;
-        self.tallies[row].get(impulse, moment, 0.0);
-        self.tallies[row].get_artefact(CAPTURE, work);
+        tally.get(impulse, moment, work);
+        tally.artefacts[CAPTURE] += work;
     }
 }
 
-/// What the bodies of these rows have, if there is a ledger.
-pub(crate) fn stocks(bodies: &Bodies, rows: &[usize]) -> Vec<Stock> {
-    let Some(journal) = &bodies.journal else { return Vec::new() };
-    rows.iter().map(|&row| Stock::of_row(bodies, row, journal.gravity)).collect()
+/// What the body of a row has, if there is a ledger.
+pub(crate) fn stock(bodies: &Bodies, row: usize) -> Option<Stock> {
+    bodies.journal.as_ref().map(|journal| Stock::of_row(bodies, row, journal.gravity))
 }
 
 /// Books what one contact does to angular momentum by pushing an overlap out (displacement times mass, kg·m): bodies that move have
@@ -197,14 +179,12 @@ pub(crate) fn shifted(bodies: &mut Bodies, wrench: &Wrench, inverse_masses: [f64
     }
 }
 
-/// Books the energy that pushing overlaps out has given to bodies that had these stocks.
-pub(crate) fn pushed_out(bodies: &mut Bodies, rows: &[usize], before: &[Stock]) {
+/// Books the energy that pushing overlaps out has given to a body that had `before`.
+pub(crate) fn pushed_out(bodies: &mut Bodies, row: usize, before: &Stock) {
     let Some(mut journal) = bodies.journal.take() else { return };
-    for (&row, before) in rows.iter().zip(before) {
-        let change = Stock::of_row(bodies, row, journal.gravity).since(before);
-        journal.posts.position_correction += change.energy;
-        journal.tallies[row].get(change.linear, change.angular, 0.0);
-        journal.tallies[row].get_artefact(CORRECTION, change.energy);
-    }
+    let change = Stock::of_row(bodies, row, journal.gravity).since(before);
+    journal.posts.position_correction += change.energy;
+    journal.tallies[row].get(change.linear, change.angular, 0.0);
+    journal.tallies[row].get_artefact(CORRECTION, change.energy);
     bodies.journal = Some(journal);
 }

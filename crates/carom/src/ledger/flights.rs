@@ -20,11 +20,11 @@ struct Flight<'a> {
     constants: &'a Constants,
     influence: &'a Influence,
     time: f64,
-    /// Gravity's force and the user's, N, and the user's torque, N·m.
-    pull: DVec3,
+    /// The user's force, N, and torque, N·m.
     push: DVec3,
     torque: DVec3,
-    /// Whether they act along this path.
+    /// How forces act on it, and whether gravity and the user's do along this path.
+    path: Path,
     acts: bool,
 }
 
@@ -36,7 +36,6 @@ pub(crate) fn flown(bodies: &mut Bodies, row: usize, before: &RigidState, time: 
         return;
     }
     let (push, torque) = bodies.forces[row];
-    let rests = *influence == Influence::default() && push == DVec3::ZERO && torque == DVec3::ZERO;
     let path = journal.passages[row].path;
     let flight = Flight {
         before,
@@ -44,19 +43,49 @@ pub(crate) fn flown(bodies: &mut Bodies, row: usize, before: &RigidState, time: 
         constants,
         influence,
         time,
-        pull: weight(constants, journal.gravity),
         push,
         torque,
-        acts: path == Path::Steady || (path == Path::Free && !rests),
+        path,
+        // What sleeps has no influence although gravity pulls.
+        acts: match path {
+            Path::Free => *influence != Influence::default() || push != DVec3::ZERO || torque != DVec3::ZERO,
+            Path::Steady => true,
+            Path::Kicked => false,
+        },
     };
     if constants.inverse_mass > 0.0 {
         flight.book_center(journal, row);
     }
-    flight.book_turning(journal, row);
+    if flight.turns() {
+        flight.book_turning(journal, row);
+    }
+}
+
+/// Books what gravity has given to bodies in the step: `m·g` times how long it has acted, at their mean places.
+pub(crate) fn book_falls(bodies: &mut Bodies) {
+    let Some(journal) = bodies.journal.as_deref_mut().filter(|journal| journal.gravity != DVec3::ZERO) else {
+        return;
+    };
+    for (constants, tally) in bodies.constants.iter().zip(&mut journal.tallies) {
+        let pull = weight(constants, journal.gravity);
+        let (impulse, moment) = (pull * tally.fall_time, tally.fall_place.cross(pull));
+        journal.posts.gravity.add(impulse, moment);
+        tally.get(impulse, moment, 0.0);
+    }
+}
+
+/// Whether there is something to book where a body only drifts along: contacts that ask for its way, forces that have cancelled
+/// out, or gravity, which changes its potential energy.
+#[inline]
+pub(crate) fn minds_drifting(bodies: &Bodies, row: usize) -> bool {
+    let Some(journal) = bodies.journal.as_deref() else { return false };
+    journal.gravity != DVec3::ZERO
+        || journal.passages[row].path != Path::Free
+        || bodies.forces[row] != (DVec3::ZERO, DVec3::ZERO)
 }
 
 /// Gravity's force on a body, N; nothing on what has infinite mass.
-pub(super) fn weight(constants: &Constants, gravity: DVec3) -> DVec3 {
+fn weight(constants: &Constants, gravity: DVec3) -> DVec3 {
     if constants.inverse_mass > 0.0 {
         constants.mass() * constants.gravity_factor * gravity
     } else {
@@ -68,22 +97,21 @@ impl Flight<'_> {
     fn book_center(&self, journal: &mut Journal, row: usize) {
         let (posts, tally) = (&mut journal.posts, &mut journal.tallies[row]);
         let way = self.after.position - self.before.position;
-        let passage = &mut journal.passages[row];
-        if passage.path == Path::Steady {
-            passage.way += way;
+        if self.path == Path::Steady {
+            journal.passages[row].way += way;
         }
         if self.acts {
             let mean = mean_center(self.before, self.constants, self.influence, self.time);
-            let (pull, push) = (self.pull * self.time, self.push * self.time);
-            posts.gravity.add(pull, mean.cross(pull));
-            tally.get(pull + push, mean.cross(pull + push), self.push.dot(way));
+            tally.falls(mean, self.time);
             if self.push != DVec3::ZERO {
-                posts.external.add(push, mean.cross(push));
-                posts.work_external += self.push.dot(way);
+                let (impulse, work) = (self.push * self.time, self.push.dot(way));
+                posts.external.add(impulse, mean.cross(impulse));
+                posts.work_external += work;
+                tally.get(impulse, mean.cross(impulse), work);
             }
         } else {
             // Gravity has acted before, or does not: only potential energy changes.
-            let fallen = -self.pull.dot(way);
+            let fallen = -weight(self.constants, journal.gravity).dot(way);
             posts.integration += fallen;
             tally.get_artefact(INTEGRATION, fallen);
         }
@@ -109,6 +137,20 @@ impl Flight<'_> {
         journal.tallies[row].get(drag, moment, -loss);
     }
 
+    /// Whether turning changes anything, or what acts has to know how far the body turns: bodies that turn about all axes alike keep
+    /// their energy to the bit.
+    fn turns(&self) -> bool {
+        let (constants, momentum) = (self.constants, self.before.angular_momentum);
+        let is_twisted = self.torque != DVec3::ZERO || self.influence.torque != DVec3::ZERO;
+        if momentum == DVec3::ZERO && !is_twisted {
+            return false;
+        }
+        self.path == Path::Steady
+            || is_twisted
+            || constants.angular_damping > 0.0
+            || !constants.is_isotropic()
+    }
+
     fn book_turning(&self, journal: &mut Journal, row: usize) {
         let (before, after, constants, time) = (self.before, self.after, self.constants, self.time);
         let (posts, tally) = (&mut journal.posts, &mut journal.tallies[row]);
@@ -117,7 +159,9 @@ impl Flight<'_> {
         let [start, first] = constants.free_spins(before.rotation, [before.angular_momentum, momentum]);
         let [last, end] = constants.free_spins(after.rotation, [momentum, after.angular_momentum]);
         let turned = 0.5 * momentum.dot(last - first);
-        if constants.driven_spin == DVec3::ZERO {
+        if constants.is_isotropic() {
+            // As fast as before, to the bit.
+        } else if constants.driven_spin == DVec3::ZERO {
             posts.integration += turned;
             tally.get_artefact(INTEGRATION, turned);
         } else {
@@ -135,13 +179,12 @@ impl Flight<'_> {
             tally.get(DVec3::ZERO, -momentum * (1.0 - left), -loss);
         }
 
-        let passage = &mut journal.passages[row];
         let by_user = self.acts && self.torque != DVec3::ZERO;
-        if passage.path != Path::Steady && !by_user {
+        if self.path != Path::Steady && !by_user {
             return;
         }
         let turn = (start + first + last * left + end) * (0.25 * time);
-        passage.turn += turn;
+        journal.passages[row].turn += turn;
         if by_user {
             let impulse = self.torque * time;
             posts.external.angular += impulse;
@@ -164,16 +207,18 @@ fn sector(x: f64) -> f64 {
 /// is `steady`, else all that gravity and the user's forces give. What contacts give is booked when the substep is over.
 pub(crate) fn set_out(bodies: &mut Bodies, row: usize, before: &RigidState, (time, steady): (f64, bool)) {
     let Some(journal) = bodies.journal.as_deref_mut() else { return };
+    let (after, constants) = (&bodies.states[row], &bodies.constants[row]);
+    if !constants.is_regular() {
+        journal.rotations[row] = before.rotation;
+    }
     if steady {
-        journal.passages[row] =
-            Passage { path: Path::Steady, rotation: before.rotation, ..Passage::default() };
+        journal.lead(row, Passage { path: Path::Steady, ..Passage::default() });
         return;
     }
-    let (after, constants) = (&bodies.states[row], &bodies.constants[row]);
     let way = (before.velocity + after.velocity) * (0.5 * time);
     let momentum = 0.5 * (before.angular_momentum + after.angular_momentum);
     let turn = constants.free_spin(before.rotation, momentum) * time;
-    journal.passages[row] = Passage { path: Path::Kicked, rotation: before.rotation, way, turn };
+    journal.lead(row, Passage { path: Path::Kicked, way, turn });
 
     let (posts, tally) = (&mut journal.posts, &mut journal.tallies[row]);
     let (mut push, torque) = bodies.forces[row];
@@ -181,11 +226,8 @@ pub(crate) fn set_out(bodies: &mut Bodies, row: usize, before: &RigidState, (tim
         push = DVec3::ZERO;
     }
     let pull = weight(constants, journal.gravity);
-    let impulse = pull * time;
-    let moment = before.position.cross(impulse);
-    posts.gravity.add(impulse, moment);
+    tally.falls(before.position, time);
     posts.integration += pull.dot(way);
-    tally.get(impulse, moment, 0.0);
     tally.get_artefact(INTEGRATION, pull.dot(way));
     if push != DVec3::ZERO || torque != DVec3::ZERO {
         let impulse = push * time;
@@ -200,6 +242,9 @@ pub(crate) fn set_out(bodies: &mut Bodies, row: usize, before: &RigidState, (tim
 /// Books the angular momentum that a body got so that a force of contacts acts at its old place, and what was wanted.
 pub(crate) fn kept_to_plan(bodies: &mut Bodies, row: usize, [turn, wanted]: [DVec3; 2]) {
     let Some(journal) = bodies.journal.as_deref_mut() else { return };
+    if turn == DVec3::ZERO && wanted == DVec3::ZERO {
+        return;
+    }
     let (state, constants) = (&bodies.states[row], &bodies.constants[row]);
     let spin = constants.free_spin(state.rotation, state.angular_momentum - 0.5 * turn);
     let tally: &mut Tally = &mut journal.tallies[row];

@@ -1,7 +1,6 @@
 //! What is noted while a step goes on.
 
 use super::contacts::Exerted;
-use super::flights::weight;
 use super::{Posts, Residual, Stock};
 use crate::bodies::Bodies;
 use crate::math::{DQuat, DVec3};
@@ -11,12 +10,20 @@ use crate::math::{DQuat, DVec3};
 pub(crate) struct Journal {
     pub gravity: DVec3,
     pub posts: Posts,
-    /// Row by row: what each body had, what has changed it, where its path leads.
+    /// Row by row: what each body had, and at the end of a step has; what has changed it, where its path leads.
     start: Vec<Stock>,
-    /// Sums of what the single bodies had at the start.
-    gross: [f64; 3],
+    end: Vec<Stock>,
     pub tallies: Vec<Tally>,
     pub passages: Vec<Passage>,
+    /// Orientations when they set out of those of which something is infinite.
+    pub rotations: Vec<DQuat>,
+    /// Rows whose passages are other than those of what nothing holds.
+    pub led: Vec<usize>,
+    /// Sums of what the bodies had at the end of the last step, with and without directions.
+    sum: Stock,
+    gross: [f64; 3],
+    /// Whether bodies still have what they had then: nobody has been at them.
+    is_known: bool,
     /// What contacts exert in the present substep.
     pub exerted: Option<Exerted>,
     /// A body was lost.
@@ -29,6 +36,9 @@ pub(crate) struct Tally {
     pub explained: Residual,
     /// Energy that each of the [`ARTEFACTS`] gave, J.
     pub artefacts: [f64; ARTEFACTS.len()],
+    /// How long gravity has acted, s, and the integral of where it did, m·s: booked at the end of the step.
+    pub fall_time: f64,
+    pub fall_place: DVec3,
 }
 
 /// Posts that are not modelled.
@@ -47,6 +57,12 @@ impl Tally {
         self.explained.energy += energy;
     }
 
+    /// Gravity acts for so long (s) at the mean place `center`.
+    pub fn falls(&mut self, center: DVec3, time: f64) {
+        self.fall_time += time;
+        self.fall_place += center * time;
+    }
+
     /// Energy that it got from one of the [`ARTEFACTS`].
     pub fn get_artefact(&mut self, artefact: usize, energy: f64) {
         self.explained.energy += energy;
@@ -58,8 +74,6 @@ impl Tally {
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Passage {
     pub path: Path,
-    /// Its orientation when it set out.
-    pub rotation: DQuat,
     /// Way (m) and turn (rad) along which a force of contacts and its torque work, if they act evenly.
     pub way: DVec3,
     pub turn: DVec3,
@@ -83,9 +97,6 @@ pub(crate) struct Closing {
     pub posts: Posts,
     pub gross: [f64; 3],
     pub lost: bool,
-    /// Row by row: what no cause explains, and what artefacts have done.
-    pub residuals: Vec<Residual>,
-    pub artefacts: Vec<[f64; ARTEFACTS.len()]>,
 }
 
 fn add_to(sums: &mut [f64; 3], values: [f64; 3]) {
@@ -93,51 +104,80 @@ fn add_to(sums: &mut [f64; 3], values: [f64; 3]) {
 }
 
 impl Journal {
-    /// Begins a step; what all bodies have.
+    /// Begins a step; what all bodies have. What they had at the end of the last one is looked up, unless somebody has been at them.
     pub fn open(&mut self, bodies: &Bodies, gravity: DVec3) -> Stock {
         let rows = bodies.states.len();
-        self.gravity = gravity;
         self.lost = false;
-        self.start.clear();
-        self.start.extend((0..rows).map(|row| Stock::of_row(bodies, row, gravity)));
+        if self.is_known && self.gravity == gravity && self.end.len() == rows {
+            std::mem::swap(&mut self.start, &mut self.end);
+        } else {
+            self.gravity = gravity;
+            self.start.clear();
+            self.start.extend((0..rows).map(|row| Stock::of_row(bodies, row, gravity)));
+            (self.sum, self.gross) = (Stock::default(), [0.0; 3]);
+            for (stock, state) in self.start.iter().zip(&bodies.states) {
+                self.sum += *stock;
+                add_to(&mut self.gross, stock.sizes(state.position));
+            }
+        }
+        self.is_known = false;
         self.tallies.clear();
         self.tallies.resize(rows, Tally::default());
-        self.passages.clear();
         self.passages.resize(rows, Passage::default());
-        let mut all = Stock::default();
-        self.gross = [0.0; 3];
-        for (row, stock) in self.start.iter().enumerate() {
-            all += *stock;
-            add_to(&mut self.gross, stock.sizes(bodies.states[row].position));
-        }
-        all
+        self.rotations.resize(rows, DQuat::IDENTITY);
+        self.sum
     }
 
     /// Ends a step that took so long (s).
     pub fn close(&mut self, bodies: &Bodies, step: f64) -> Closing {
-        let mut closing = Closing {
-            end: Stock::default(),
-            posts: std::mem::take(&mut self.posts),
-            gross: self.gross,
-            lost: self.lost,
-            residuals: Vec::with_capacity(self.start.len()),
-            artefacts: self.tallies.iter().map(|tally| tally.artefacts).collect(),
-        };
-        for (row, (start, tally)) in self.start.iter().zip(&self.tallies).enumerate() {
-            let end = Stock::of_row(bodies, row, self.gravity);
-            closing.end += end;
-            let position = bodies.states[row].position;
-            let pull = weight(&bodies.constants[row], self.gravity).length() * step;
-            add_to(&mut closing.gross, end.sizes(position));
-            add_to(&mut closing.gross, [pull, pull * position.length(), 0.0]);
-            closing.residuals.push(end.since(start) - tally.explained);
+        let rows = bodies.states.iter().zip(&bodies.constants);
+        self.end.clear();
+        self.end.extend(rows.clone().map(|(state, constants)| Stock::of(state, constants, self.gravity)));
+        let (mut sum, mut gross, mut pulls) = (Stock::default(), [0.0; 3], [0.0; 3]);
+        let fall = self.gravity.length() * step;
+        for (stock, (state, constants)) in self.end.iter().zip(rows) {
+            sum += *stock;
+            let distance = state.position.length();
+            add_to(&mut gross, stock.sizes_at(distance));
+            if constants.inverse_mass > 0.0 {
+                let pull = constants.mass() * constants.gravity_factor.abs() * fall;
+                add_to(&mut pulls, [pull, pull * distance, 0.0]);
+            }
         }
+        let mut closing = Closing {
+            end: sum,
+            posts: std::mem::take(&mut self.posts),
+            gross: std::mem::replace(&mut self.gross, gross),
+            lost: self.lost,
+        };
+        add_to(&mut closing.gross, gross);
+        add_to(&mut closing.gross, pulls);
+        self.sum = sum;
+        self.is_known = true;
         closing
+    }
+
+    /// Row by row, what no cause explains of the step that is over.
+    pub fn residuals(&self) -> impl Iterator<Item = Residual> {
+        let rows = self.start.iter().zip(&self.end).zip(&self.tallies);
+        rows.map(|((start, end), tally)| end.since(start) - tally.explained)
+    }
+
+    /// Somebody changes bodies between steps.
+    pub fn forget(&mut self) {
+        self.is_known = false;
+    }
+
+    /// What a body that contacts hold does in the present substep.
+    pub fn lead(&mut self, row: usize, passage: Passage) {
+        self.passages[row] = passage;
+        self.led.push(row);
     }
 
     /// The body of a row is no more; that of the last row gets its row.
     pub fn swap_remove(&mut self, row: usize) {
         self.lost = true;
+        self.is_known = false;
         if row < self.start.len() {
             self.start.swap_remove(row);
             self.tallies.swap_remove(row);

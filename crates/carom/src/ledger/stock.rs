@@ -2,6 +2,7 @@
 
 use super::Residual;
 use crate::bodies::Bodies;
+use crate::flight::{Constants, RigidState};
 use crate::math::DVec3;
 use crate::world::{Energy, Momentum};
 use std::ops::AddAssign;
@@ -20,7 +21,12 @@ pub struct Stock {
 impl Stock {
     /// What the body of a row has.
     pub(crate) fn of_row(bodies: &Bodies, row: usize, gravity: DVec3) -> Self {
-        let (state, constants) = (&bodies.states[row], &bodies.constants[row]);
+        Self::of(&bodies.states[row], &bodies.constants[row], gravity)
+    }
+
+    /// What a body in this state has.
+    #[inline]
+    pub(super) fn of(state: &RigidState, constants: &Constants, gravity: DVec3) -> Self {
         let mut stock = Stock::default();
         if !constants.is_movable() {
             return stock;
@@ -64,8 +70,14 @@ impl Stock {
 
     /// Its parts without their signs and directions, for a body at `position`: what rounding is a share of.
     pub(super) fn sizes(&self, position: DVec3) -> [f64; 3] {
+        self.sizes_at(position.length())
+    }
+
+    /// The same at this distance (m) from the origin.
+    #[inline]
+    pub(super) fn sizes_at(&self, distance: f64) -> [f64; 3] {
         let linear = self.momentum.linear.length();
-        let angular = self.momentum.angular.length() + position.length() * linear;
+        let angular = self.momentum.angular.length() + distance * linear;
         [linear, angular, self.energy.kinetic + self.energy.potential.abs() + self.elastic]
     }
 }

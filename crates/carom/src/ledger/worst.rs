@@ -1,7 +1,7 @@
 //! Which step and which body fitted worst.
 
 use super::Books;
-use super::journal::{ARTEFACTS, Closing};
+use super::journal::{ARTEFACTS, Journal, Tally};
 use crate::bodies::{Bodies, BodyId};
 use std::fmt;
 
@@ -26,57 +26,53 @@ pub struct Worst {
 const KINDS: [&str; 3] = ["residual_p", "residual_l", "residual_energy"];
 
 impl Worst {
-    /// The largest residual of a step.
+    /// The largest residual of a step, unless the `present` one is as bad.
     pub(super) fn residual(
         books: &Books,
-        closing: &Closing,
-        bodies: &Bodies,
+        (journal, bodies): (&Journal, &Bodies),
         (step, time): (u64, f64),
-    ) -> Self {
+        present: Option<Worst>,
+    ) -> Option<Self> {
         let relative = books.relative_residual();
-        let kind = largest(relative.into_iter()).map_or(0, |(kind, _)| kind);
-        let row = largest(closing.residuals.iter().map(|residual| residual.sizes()[kind]));
-        Self {
+        let (kind, weight) = largest(relative.into_iter()).unwrap_or((0, 0.0));
+        if !outweighs(weight, &present) {
+            return present;
+        }
+        // Whose it is, is asked only now: it takes a look at every body.
+        let row = largest(journal.residuals().map(|residual| residual.sizes()[kind]));
+        Some(Self {
             post: KINDS[kind],
             step,
             time,
             body: row.and_then(|(row, _)| body_of(bodies, row)),
             amount: books.residual().sizes()[kind],
-            relative: relative[kind],
-            weight: relative[kind],
-        }
+            relative: weight,
+            weight,
+        })
     }
 
-    /// The largest artefact of a step.
+    /// The largest artefact of a step, unless the `present` one is as large.
     pub(super) fn artefact(
         books: &Books,
-        closing: &Closing,
-        bodies: &Bodies,
+        (journal, bodies): (&Journal, &Bodies),
         (step, time): (u64, f64),
-    ) -> Self {
-        let of_body =
-            |values: &[f64; ARTEFACTS.len()]| values.iter().fold(0.0_f64, |most, it| most.max(it.abs()));
-        let row = largest(closing.artefacts.iter().map(of_body)).map_or(0, |(row, _)| row);
-        let values = closing.artefacts.get(row).copied().unwrap_or_default();
-        let (post, amount) = largest(values.iter().map(|it| it.abs())).unwrap_or((0, 0.0));
+        present: Option<Worst>,
+    ) -> Option<Self> {
+        let of_body = |tally: &Tally| tally.artefacts.iter().fold(0.0_f64, |most, it| most.max(it.abs()));
+        let (row, amount) = largest(journal.tallies.iter().map(of_body))?;
+        if !outweighs(amount, &present) {
+            return present;
+        }
+        let (post, _) = largest(journal.tallies[row].artefacts.iter().map(|it| it.abs()))?;
         let relative = amount / (books.throughput[2] + f64::MIN_POSITIVE);
         let body = body_of(bodies, row);
-        Self { post: ARTEFACTS[post], step, time, body, amount, relative, weight: amount }
+        Some(Self { post: ARTEFACTS[post], step, time, body, amount, relative, weight: amount })
     }
+}
 
-    /// The worse of two, if there is anything.
-    pub(super) fn worse(self, other: Option<Worst>) -> Option<Worst> {
-        match other {
-            Some(other) if other.weight >= self.weight => Some(other),
-            other => {
-                if self.weight > 0.0 {
-                    Some(self)
-                } else {
-                    other
-                }
-            }
-        }
-    }
+/// Whether there is something, and more than what was worst so far.
+fn outweighs(weight: f64, present: &Option<Worst>) -> bool {
+    weight > present.as_ref().map_or(0.0, |worst| worst.weight)
 }
 
 fn body_of(bodies: &Bodies, row: usize) -> Option<BodyId> {

@@ -3,7 +3,7 @@
 use crate::bodies::{Bodies, WORLD_ROW};
 use crate::flight::{Influence, RigidState, fly, fly_center, mean_center};
 use crate::impacts::time_of_impact::RestLaw;
-use crate::ledger::flights::{flown, kept_to_plan};
+use crate::ledger::flights::{flown, kept_to_plan, minds_drifting};
 use crate::math::DVec3;
 use crate::step::pool::Pool;
 use crate::step::profile::{self, Phase};
@@ -55,7 +55,7 @@ pub(crate) fn advance(bodies: &mut Bodies, row: usize, time: f64) {
         return;
     }
     let drifts = bodies.constants[row].drifts(&bodies.states[row], &bodies.influences[row]);
-    if drifts && bodies.journal.is_none() && bodies.plans[row].is_none() {
+    if drifts && bodies.plans[row].is_none() && !minds_drifting(bodies, row) {
         bodies.ways[row] = bodies.way(row, time);
         let flown = time - bodies.clocks[row];
         let state = &mut bodies.states[row];

@@ -164,3 +164,39 @@ fn a_ledger_is_kept_when_asked_for_and_changes_nothing() {
     without.step(STEP);
     assert_eq!(without.ledger().steps(), 0);
 }
+
+/// What bodies have is looked up from step to step. Asking for access to a body makes the ledger look at all of them: it finds the same.
+#[test]
+fn what_is_looked_up_is_what_is_found() {
+    let books = [false, true].map(|looks| {
+        let mut world = world();
+        world.add(ground().restitution(0.5));
+        let bodies = [0.6, 1.7, 4.0].map(|y| world.add(cube().at(0.1 * y, y, 0.0).spinning(0.0, 1.0, 0.5)));
+        for step in 0..120 {
+            if looks {
+                let _ = world.body_mut(bodies[step % 3]);
+            }
+            run(&mut world, 1);
+        }
+        (*world.ledger().total(), *world.ledger().last_step(), world.ledger().worst_artefact().cloned())
+    });
+    assert_eq!(books[0], books[1]);
+}
+
+/// Whoever changes a body between steps, comes or goes is seen in the next step's books, and only there.
+#[test]
+fn the_books_begin_anew_with_whom_somebody_has_been_at() {
+    let mut world = weightless();
+    let body = world.add(cube().moving(1.0, 0.0, 0.0));
+    run(&mut world, 3);
+    world.body_mut(body).unwrap().set_linear_velocity(DVec3::X * 3.0).unwrap();
+    let other = world.add(cube().at(0.0, 5.0, 0.0).moving(2.0, 0.0, 0.0));
+    run(&mut world, 1);
+    assert_near(world.ledger().last_step().posts.work_external, 9.0 - 1.0 + 4.0, 1e-12);
+    run(&mut world, 1);
+    assert_eq!(world.ledger().last_step().posts, Posts::default());
+    world.remove(other);
+    run(&mut world, 1);
+    assert_near(world.ledger().last_step().posts.work_external, -4.0, 1e-12);
+    assert_near(world.ledger().last_step().posts.external.linear.x, -4.0, 1e-12);
+}

@@ -35,11 +35,6 @@ impl Wrench {
         self.normal[1] + self.across[1]
     }
 
-    /// The mean centre of bodies whose centres of mass are these.
-    pub fn center(&self, [a, b]: [DVec3; 2]) -> DVec3 {
-        a * (1.0 - self.share) + b * self.share
-    }
-
     /// From the centre of mass of one side to the mean centre.
     pub fn offset(&self, side: usize, [a, b]: [DVec3; 2]) -> DVec3 {
         if side == 0 { (b - a) * self.share } else { (a - b) * (1.0 - self.share) }

@@ -73,8 +73,7 @@ impl Rest {
             centers[body.row] = mean_place(bodies, body, change.velocity, substep);
             changes.push(change);
         }
-        let mut turns = impulses;
-        turns.fill(DVec3::ZERO);
+        let mut turns = vec![DVec3::ZERO; impulses.len()];
         for wrench in &wrenches {
             let push = [wrench.impulse(), wrench.moment()];
             for (side, row) in wrench.rows.into_iter().enumerate() {
@@ -95,7 +94,8 @@ impl Rest {
         }
         if let Some(journal) = &mut bodies.journal {
             let bounces = wrenches.iter().map(|wrench| self.owners[wrench.contact.index()].bounces).collect();
-            journal.exerted = Some(Exerted { wrenches, bounces, centers, captures, time: substep });
+            journal.exerted =
+                Some(Exerted { wrenches, bounces, impulses, turns, centers, captures, time: substep });
         }
     }
 

@@ -3,7 +3,7 @@
 use super::Rest;
 use crate::bodies::Bodies;
 use crate::impacts::time_of_impact::RestLaw;
-use crate::ledger::contacts::{pushed_out, shifted, stocks};
+use crate::ledger::contacts::{pushed_out, shifted, stock};
 use crate::math::{DVec3, rotation_from_vector};
 use crate::solver::lanes::{Row, WRITABLE};
 use crate::step::profile::{self, Phase};
@@ -32,7 +32,6 @@ impl Rest {
         if wrenches.is_empty() {
             return;
         }
-        let before = stocks(bodies, &held);
         let mut moves = vec![DVec3::ZERO; bodies.states.len()];
         for wrench in &wrenches {
             let [push, _] = wrench.normal;
@@ -46,14 +45,17 @@ impl Rest {
             let angular = self.rows.displacements[row].0;
             let angular = DVec3::new(angular[3].into(), angular[4].into(), angular[5].into());
             if moves[row] != DVec3::ZERO || angular != DVec3::ZERO {
+                let before = stock(bodies, row);
                 let state = &mut bodies.states[row];
                 state.position += moves[row];
                 state.rotation = (rotation_from_vector(angular) * state.rotation).normalize();
                 bodies.ways[row].0 += moves[row].length();
                 bodies.ways[row].1 += angular.length();
+                if let Some(before) = before {
+                    pushed_out(bodies, row, &before);
+                }
             }
         }
-        pushed_out(bodies, &held, &before);
     }
 
     /// Of a body as far as displacements move it, 1/kg.
