@@ -34,57 +34,63 @@ pub(crate) mod field {
     /// Coulomb's coefficients.
     pub const STATIC_FRICTION: usize = 29;
     pub const DYNAMIC_FRICTION: usize = 30;
-    /// Gap up to which a point counts at all: what comes from further away strikes. Huge where contacts see to all points. m.
-    pub const HORIZON: usize = 31;
-    /// How far the last sweep has changed a velocity, m/s.
-    pub const RESIDUAL: usize = 32;
-    /// The least and the largest separation of all points, m.
-    pub const GAP: usize = 33;
-    pub const WIDEST: usize = 34;
-    /// Radii of curvature where the surfaces are round, of `a` and `b`, m.
-    pub const ROUNDNESS: usize = 35;
     /// Slip along t₁ and t₂ that the arms' turning during the substep adds, m/s.
-    pub const SWING: usize = 37;
+    pub const SWING: usize = 31;
+    /// How far the last sweep has changed a velocity, m/s.
+    pub const RESIDUAL: usize = 33;
+    /// The first point's lines; each further point [`POINT_LINES`] further. They end what a sweep reads.
+    pub const POINT: usize = 34;
+    /// What comes after that is looked at once in a substep.
+    pub const SWEPT: usize = POINT + super::POINTS * POINT_LINES;
+
+    /// Gap up to which a point counts at all: what comes from further away strikes. Huge where contacts see to all points. m.
+    pub const HORIZON: usize = SWEPT;
+    /// The least and the largest separation of all points, m.
+    pub const GAP: usize = SWEPT + 1;
+    pub const WIDEST: usize = SWEPT + 2;
+    /// Radii of curvature where the surfaces are round, of `a` and `b`, m.
+    pub const ROUNDNESS: usize = SWEPT + 3;
     /// How much closer to `b`'s idea of it than to `a`'s the place is at which impulses act, 0 to 1.
-    pub const SHARE: usize = 39;
+    pub const SHARE: usize = SWEPT + 5;
     /// What the bodies' drifts have moved `b` against `a` when the contact was renewed, contact frame, m.
-    pub const DRIFTED: usize = 40;
+    pub const DRIFTED: usize = SWEPT + 6;
     /// Twice the vector of each body's turn since its anchor when the contact was renewed, contact frame.
-    pub const TURNED_A: usize = 43;
-    pub const TURNED_B: usize = 46;
+    pub const TURNED_A: usize = SWEPT + 9;
+    pub const TURNED_B: usize = SWEPT + 12;
     /// The arms of friction when the contact was renewed.
-    pub const RENEWED_FRICTION_A: usize = 49;
-    pub const RENEWED_FRICTION_B: usize = 52;
+    pub const RENEWED_FRICTION_A: usize = SWEPT + 15;
+    pub const RENEWED_FRICTION_B: usize = SWEPT + 18;
     /// 0 where both surfaces are round, 1 elsewhere: as one rolls over the other, it is the normal that turns.
-    pub const FOLLOWS: usize = 55;
+    pub const FOLLOWS: usize = SWEPT + 21;
     /// How much further the bodies have moved against each other since the contact was renewed than they may, m; negative as long as
     /// they have not.
-    pub const STRAY: usize = 56;
+    pub const STRAY: usize = SWEPT + 22;
     /// Gap from which on the contact has left, m.
-    pub const PARTING: usize = 57;
-    /// The first point's lines; each further point [`POINT_LINES`] further.
-    pub const POINT: usize = 58;
+    pub const PARTING: usize = SWEPT + 23;
+    /// What a sweep does not read of the first point.
+    pub const POINT_APART: usize = SWEPT + 24;
 
     /// Of a point: arm of `a` (x, y, and z of what turns with the body), then of `b`. Arms of both end at one place, also when
     /// the bodies have moved against each other.
     pub const ARM_A: usize = 0;
     pub const ARM_B: usize = 3;
-    /// Separation when the two bodies are at their anchors, m.
-    pub const BASE: usize = 6;
     /// 1 / the response to a unit normal impulse; 0 where there is no point.
-    pub const MASS: usize = 7;
+    pub const MASS: usize = 6;
     /// Normal impulse.
-    pub const IMPULSE: usize = 8;
+    pub const IMPULSE: usize = 7;
     /// Distance from where friction acts, m.
-    pub const LEVER: usize = 9;
+    pub const LEVER: usize = 8;
     /// The least normal velocity that it may have, m/s.
-    pub const LEAST: usize = 10;
+    pub const LEAST: usize = 9;
+    pub const POINT_LINES: usize = 10;
+    /// Separation when the two bodies are at their anchors, m.
+    pub const BASE: usize = 10;
     /// Separation at the start of the substep, m.
     pub const SEPARATION: usize = 11;
     /// Arms, x and y, when the contact was renewed.
     pub const RENEWED_A: usize = 12;
     pub const RENEWED_B: usize = 14;
-    pub const POINT_LINES: usize = 16;
+    pub const POINT_LINES_APART: usize = 6;
 
     /// Impulses of a contact: of its points along the normal, friction, twist.
     pub const ROWS: usize = super::POINTS + 3;
@@ -109,11 +115,15 @@ pub(crate) mod field {
     ];
 
     /// Lines of a bundle.
-    pub const COUNT: usize = POINT + super::POINTS * POINT_LINES;
+    pub const COUNT: usize = POINT_APART + super::POINTS * POINT_LINES_APART;
 
     /// A line of point number `point`.
     pub const fn of_point(point: usize, line: usize) -> usize {
-        POINT + point * POINT_LINES + line
+        if line < POINT_LINES {
+            POINT + point * POINT_LINES + line
+        } else {
+            POINT_APART + point * POINT_LINES_APART + line - POINT_LINES
+        }
     }
 }
 

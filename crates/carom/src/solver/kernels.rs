@@ -6,6 +6,15 @@ use super::contact::{begin, measure, resume, sweep, sweep_normals, work};
 use super::lanes::{Kernel, LANES, Lanes, Line, Row};
 use super::rows::SharedRows;
 
+/// Has the first lines, `read` of them, of the bundle after number `index` brought near while that one is worked on: in a large world
+/// bundles are far more than a cache holds, and what is done with one takes less time than to fetch it.
+#[inline(always)]
+pub(super) fn bring_next<L: Lanes>(bundles: &[Bundle], index: usize, read: usize) {
+    if let Some(next) = bundles.get(index + 1) {
+        L::bring_near(&next.lines[..read]);
+    }
+}
+
 /// [`measure`]; comes to the indices of the bundles with a contact that somebody has to look at.
 pub(crate) struct Measure<'a> {
     pub bundles: &'a mut [Bundle],
@@ -18,7 +27,9 @@ impl Kernel for Measure<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self) -> Vec<usize> {
         let mut noted = Vec::new();
-        for (index, bundle) in self.bundles.iter_mut().enumerate() {
+        for index in 0..self.bundles.len() {
+            bring_next::<L>(self.bundles, index, field::COUNT);
+            let bundle = &mut self.bundles[index];
             measure::<L>(bundle, self.drifts);
             let mut is_noted = false;
             for lane in 0..LANES {
@@ -47,9 +58,10 @@ impl Kernel for Begin<'_> {
 
     #[inline(always)]
     fn run<L: Lanes>(self) {
-        for bundle in self.bundles {
-            begin::<L>(bundle, self.before, self.limits);
-            resume::<L>(bundle, self.velocities);
+        for index in 0..self.bundles.len() {
+            bring_next::<L>(self.bundles, index, field::COUNT);
+            begin::<L>(&mut self.bundles[index], self.before, self.limits);
+            resume::<L>(&self.bundles[index], self.velocities);
         }
     }
 }
@@ -67,7 +79,8 @@ impl Kernel for Work<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self) -> Vec<Line> {
         let mut works = Vec::with_capacity(self.bundles.len());
-        for bundle in self.bundles {
+        for (index, bundle) in self.bundles.iter().enumerate() {
+            bring_next::<L>(self.bundles, index, field::SWEPT);
             works.push(work::<L>(bundle, self.before, self.after));
         }
         works
@@ -89,15 +102,16 @@ impl Kernel for Sweep<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self) -> Vec<usize> {
         let mut open = Vec::new();
-        for (index, bundle) in self.bundles.iter_mut().enumerate() {
+        for index in 0..self.bundles.len() {
             if let Some(chosen) = self.chosen
                 && !chosen[index]
             {
                 continue;
             }
-            sweep::<L>(bundle, self.velocities);
+            bring_next::<L>(self.bundles, index, field::SWEPT);
+            sweep::<L>(&mut self.bundles[index], self.velocities);
             let mut is_open = false;
-            for residual in bundle.lines[field::RESIDUAL].0 {
+            for residual in self.bundles[index].lines[field::RESIDUAL].0 {
                 is_open |= residual > self.agreement;
             }
             if is_open {
@@ -119,8 +133,9 @@ impl Kernel for SweepNormals<'_> {
 
     #[inline(always)]
     fn run<L: Lanes>(self) {
-        for bundle in self.bundles {
-            sweep_normals::<L>(bundle, self.displacements);
+        for index in 0..self.bundles.len() {
+            bring_next::<L>(self.bundles, index, field::SWEPT);
+            sweep_normals::<L>(&mut self.bundles[index], self.displacements);
         }
     }
 }

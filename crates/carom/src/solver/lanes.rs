@@ -77,6 +77,9 @@ pub(crate) trait Lanes:
     /// The first of `choices` where `left > right`, else the second.
     fn select_greater(left: Self, right: Self, choices: [Self; 2]) -> Self;
 
+    /// Has the machine bring lines near that will be read soon, where it can be told to. Changes no number.
+    fn bring_near(_lines: &[Line]) {}
+
     /// Column by column, the rows that `indices` names.
     fn gather(rows: impl Source, indices: &[u32]) -> [Self; 8];
 

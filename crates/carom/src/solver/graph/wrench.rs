@@ -9,6 +9,7 @@ use super::{ContactId, Graph};
 use crate::math::DVec3;
 use crate::solver::bundle::{Bundle, POINTS, field};
 use crate::solver::contact::{line, vector};
+use crate::solver::kernels::bring_next;
 use crate::solver::lanes::{Kernel, LANES, Lanes, Line, Row, Vector, WRITABLE};
 
 /// What a contact exerts on its second body, and reversed on its first.
@@ -104,7 +105,8 @@ impl Kernel for SumUp<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self) -> Self::Output {
         let mut sums = Vec::with_capacity(self.bundles.len());
-        for bundle in self.bundles {
+        for (index, bundle) in self.bundles.iter().enumerate() {
+            bring_next::<L>(self.bundles, index, field::SWEPT);
             sums.push(sum_up::<L>(bundle));
         }
         sums

@@ -15,6 +15,9 @@ use super::{InstructionSet, Kernel, Lanes, Line, Portable, SharedRows, Source, W
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
+/// What comes from memory at a time, bytes.
+const CACHE_LINE: usize = 64;
+
 /// Runs a kernel with the instructions of `set`.
 ///
 /// # Safety
@@ -140,6 +143,14 @@ macro_rules! lanes {
             fn select_greater(left: Self, right: Self, [yes, no]: [Self; 2]) -> Self {
                 // SAFETY: see `neg`.
                 Self(unsafe { $choose([left.0, right.0], [yes.0, no.0]) })
+            }
+
+            #[inline(always)]
+            fn bring_near(lines: &[Line]) {
+                for line in lines.iter().step_by(CACHE_LINE / size_of::<Line>()) {
+                    // SAFETY: every x86-64 has it, and it does not even fault.
+                    unsafe { _mm_prefetch::<_MM_HINT_T0>((&raw const *line).cast()) }
+                }
             }
 
             #[inline(always)]
