@@ -103,20 +103,27 @@ impl Seam<'_> {
         let (a, b) = approach.keys;
         let bodies = approach.bodies;
         let rows = [approach.a.row, approach.b.row];
+        let nearest: Vec<ContactPoint> = manifolds
+            .iter()
+            .filter_map(|manifold| manifold.points().iter().min_by(nearest))
+            .copied()
+            .collect();
         let mut found: Vec<Beside> = Vec::new();
         for row in rows.into_iter().filter(|&row| row != WORLD_ROW && bodies.constants[row].is_movable()) {
-            for number in 0..pairs.count_of_row(row) {
-                let pair = &pairs[pairs.of_row(row, number)];
-                let (first, second) = pair.colliders;
+            for ((first, second), index) in pairs.each_of_row(row) {
                 let shares = |key: u32| first == key || second == key;
-                if pair.sensor || shares(a) == shares(b) {
+                if shares(a) == shares(b) {
                     continue;
                 }
                 let shared = if shares(a) { a } else { b };
                 let other = if first == shared { second } else { first };
-                if self.comes_near(other, shared == a, manifolds)
-                    && (pair.rests
-                        || pair.least_separation(bodies, self.time) <= self.margin + approach.flush())
+                if !self.comes_near(other, shared == a, &nearest) {
+                    continue;
+                }
+                let pair = &pairs[index];
+                let may_touch = || pair.least_separation(bodies, self.time) <= self.margin + approach.flush();
+                if !pair.sensor
+                    && (pair.rests || may_touch())
                     && !found.iter().any(|beside| beside.other == other)
                 {
                     found.push(Beside { other, shares_first: shared == a, planes: None });
@@ -126,12 +133,12 @@ impl Seam<'_> {
         found
     }
 
-    /// Whether a collider may come so near the place of one of the manifolds that it can make it idle.
-    fn comes_near(&self, other: u32, shares_first: bool, manifolds: &[Manifold]) -> bool {
+    /// Whether a collider may come so near one of these contacts that it can make it idle.
+    fn comes_near(&self, other: u32, shares_first: bool, contacts: &[ContactPoint]) -> bool {
         let Some(other) = self.approach.bodies.collider(other) else { return false };
         let center = self.approach.center_at(other, self.time);
         let reach = (1.0 + SLACK) * other.reach + GAP * self.reach(other, shares_first);
-        manifolds.iter().filter_map(|manifold| manifold.points().iter().min_by(nearest)).any(|contact| {
+        contacts.iter().any(|contact| {
             let far = reach + 1.5 * contact.separation.abs();
             center.distance_squared(contact.point) <= far * far
         })

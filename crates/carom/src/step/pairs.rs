@@ -160,6 +160,11 @@ impl Pairs {
         self.of_row[row][number].index as usize
     }
 
+    /// All pairs of the body of a row: their colliders and indices.
+    pub fn each_of_row(&self, row: usize) -> impl Iterator<Item = (ColliderPair, usize)> {
+        self.of_row[row].iter().map(|entry| (entry.colliders, entry.index as usize))
+    }
+
     /// Takes out the pairs of a collider of the body of a row.
     pub fn remove(&mut self, collider: u32, row: usize) -> Vec<Pair> {
         let entries: Vec<Entry> = if row == WORLD_ROW {
