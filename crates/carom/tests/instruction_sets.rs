@@ -182,12 +182,12 @@ const THREADS: [u32; 3] = [1, 2, 4];
 
 /// The hashes of states and events of [pile, mesh, gas, cradle, stack, crowd].
 const EXPECTED: [[u64; 2]; 6] = [
-    [0x7588_a800_0277_9b10, 0x5bdf_2b38_68e6_c76e],
-    [0xaa8d_a88e_8c2c_bbc8, 0x0c96_7cc6_0171_3c6b],
+    [0x5769_e8dd_aa52_3931, 0xabb4_72a5_4502_297a],
+    [0xdec3_78dc_3195_e15f, 0xcfd1_cbbe_afa8_4ebb],
     [0xb7c9_a597_8de9_22c8, 0x12d9_d339_e94d_7830],
     [0xc1e1_fd04_731e_91a0, 0xf840_eec8_201f_e158],
-    [0xe977_f0be_3005_8cc1, 0x1222_2d2a_3de1_8908],
-    [0x3e71_74d9_eac2_4e82, 0xd2ac_ba39_ab9c_99e1],
+    [0x079c_3c0e_2d1a_9929, 0x1222_2d2a_3de1_8908],
+    [0x1238_c288_c3f3_2bc9, 0x0835_8819_ed60_b60b],
 ];
 
 #[test]

@@ -16,13 +16,14 @@ use crate::solver::prepare::{Remembered, Side, Terms, lane};
 use crate::step::pairs::{Pairs, Support};
 use crate::step::profile::{self, Phase};
 
-/// Motion of a body, as a share of its smallest collider's reach or in radians, after which its contacts are renewed.
+/// Motion of a body, as a share of its smallest collider's reach or in radians, after which its contacts are renewed: of one that lies or
+/// moves slowly. What a fast one does within a step may add up before, to the second at most; they are looked at closely again as it
+/// comes to rest.
 const DRIFT: f64 = 5e-3;
+const FAST_DRIFT: f64 = 3e-2;
 
-/// In a crowd what counts is how far bodies move against each other; so far they may move together. What a fast body does within a step
-/// may add up before its contacts are renewed, to so much at most: they are looked at closely again as it comes to rest.
+/// In a crowd what counts is how far bodies move against each other; so far they may move together.
 const TOGETHER: f64 = 0.5;
-const CROWD_DRIFT: f64 = 3e-2;
 
 /// So many pairs looked at are worth sharing out.
 const LOOKS: usize = 16;
@@ -64,7 +65,7 @@ impl Rest {
                 let (linear, angular) = bodies.paces[pair.rows[side]];
                 linear + angular * pair.spin_reach[side]
             };
-            let ahead = ((way(0) + way(1)) * (law.step - span.from)).min(0.2 * grain);
+            let ahead = ((way(0) + way(1)) * law.substep).min(0.2 * grain);
             margin + 0.01 * grain + ahead
         };
         let mut manifolds = Vec::new();
@@ -145,7 +146,7 @@ impl Rest {
         let mut has_moved = vec![false; bodies.states.len()];
         for &row in held {
             let [way, turn] = self.rows.read_drift(bodies, row);
-            let [most, most_turn] = self.limits(bodies, row, at.0.step);
+            let [most, most_turn] = self.limits(bodies, row, at.0);
             if way > most * most || turn > most_turn * most_turn {
                 has_moved[row] = true;
                 self.rows.anchor(bodies, row);
@@ -174,16 +175,18 @@ impl Rest {
     }
 
     /// How far a body may be from its anchor, m, and the sine of half the angle; sets its leash.
-    fn limits(&mut self, bodies: &Bodies, row: usize, step: f64) -> [f64; 2] {
+    fn limits(&mut self, bodies: &Bodies, row: usize, law: RestLaw) -> [f64; 2] {
         let grain = bodies.grains[row];
-        if !self.crowds.has(row) {
-            self.rows.set_leash(row, if bodies.constants[row].is_movable() { f64::INFINITY } else { 0.0 });
-            return [DRIFT * grain, DRIFT];
-        }
         let (speed, spin) = bodies.paces[row];
-        let most = |share: f64| share.clamp(DRIFT, CROWD_DRIFT);
-        self.rows.set_leash(row, most(speed * step / grain) * grain);
-        [TOGETHER * grain, most(0.5 * spin * step)]
+        let most = |share: f64| share.clamp(DRIFT, FAST_DRIFT);
+        if self.crowds.has(row) {
+            self.rows.set_leash(row, most(speed * law.step / grain) * grain);
+            return [TOGETHER * grain, most(0.5 * spin * law.step)];
+        }
+        self.rows.set_leash(row, if bodies.constants[row].is_movable() { f64::INFINITY } else { 0.0 });
+        // What is so far from where it is thought to be has its velocity wrong by no more than the rest threshold.
+        let unnoticed = law.rest_speed() / (spin * grain).max(f64::MIN_POSITIVE);
+        [most(unnoticed.min(speed * law.step / grain)) * grain, most(0.5 * unnoticed)]
     }
 
     /// Renews the contacts of all these pairs.
