@@ -6,7 +6,7 @@
 use super::law::ROUNDING;
 use super::strike::{Party, Strike};
 use carom::impulse::Velocity;
-use carom::math::{DQuat, DVec3, Pose};
+use carom::math::{DQuat, DVec3, Pose, rotated_diagonal};
 use carom::{BodyId, Motion, World};
 use std::collections::BTreeMap;
 
@@ -34,6 +34,8 @@ pub(super) struct Course {
     pub(super) damping: [f64; 2],
     /// From the body's origin to its centre of mass, m.
     pub(super) center: f64,
+    /// Principal moments of inertia (zero where infinite), kg·m², and their axes in the body's frame.
+    inertia: (DVec3, DQuat),
     pub(super) knots: Vec<Knot>,
 }
 
@@ -76,6 +78,10 @@ pub(super) fn courses(
             gravity: if is_dynamic { body.gravity_factor * world.settings().gravity } else { DVec3::ZERO },
             damping,
             center: mass.center.length(),
+            inertia: (
+                mass.moments.map(|moment| if moment.is_finite() { moment } else { 0.0 }),
+                mass.principal_rotation,
+            ),
             knots: vec![*first, *last],
         };
         courses.insert(id, course);
@@ -147,8 +153,18 @@ impl Course {
         let share = (part / whole).min(1.0);
         let miss = to.pose.position - self.flown(from, whole).0;
         let position = self.flown(from, part).0 + share * miss;
-        let turn = turn(from, to);
-        Pose::new(position, (DQuat::from_scaled_axis(share * turn) * from.pose.rotation).normalize())
+        let turn = if self.turns_freely(from, to) { turned(from, to, share) } else { share * turn(from, to) };
+        let turned = DQuat::from_scaled_axis(turn);
+        Pose::new(position, (turned * from.pose.rotation).normalize())
+    }
+
+    /// Whether nothing changes its angular momentum from one knot to the next.
+    fn turns_freely(&self, from: &Knot, to: &Knot) -> bool {
+        let momentum = |pose: &Pose, velocity: &Velocity| {
+            rotated_diagonal(pose.rotation * self.inertia.1, self.inertia.0) * velocity.angular
+        };
+        let before = self.spin_left(to.time - from.time) * momentum(&from.pose, &from.after);
+        momentum(&to.pose, &to.before).distance(before) <= UNTOUCHED * before.length()
     }
 
     /// How fast its centre moves at most, m/s, and its turning, rad/s.
@@ -173,6 +189,38 @@ fn turn(from: &Knot, to: &Knot) -> DVec3 {
     let axis = if shortest == DVec3::ZERO { guess.normalize_or_zero() } else { shortest.normalize() };
     let full = std::f64::consts::TAU;
     shortest + axis * (((guess - shortest).dot(axis) / full).round() * full)
+}
+
+/// What keeps its angular momentum to within this share of it turns freely.
+const UNTOUCHED: f64 = 1e-4;
+
+/// A turn (rad) beyond which it is not told from both ends' angular velocities how it comes about.
+const FAR: f64 = 2.5;
+
+/// The turn of what turns freely until a `share` of the time between two knots has passed, rad: the cubic that has the angular velocities
+/// of both as well.
+///
+/// With `r` the vector of the turn so far, `ω = J(r)·ṙ`, and (Chirikjian, *Stochastic Models, Information Theory, and Lie Groups* 2,
+/// 2012, 10.86)
+///
+/// ```text
+/// J⁻¹(r)·ω = ω − ½ r × ω + c·r × (r × ω)      c = 1/|r|² − (1 + cos|r|)/(2|r| sin|r|) → 1/12
+/// ```
+fn turned(from: &Knot, to: &Knot, share: f64) -> DVec3 {
+    let (whole, turn) = (to.time - from.time, turn(from, to));
+    let size = turn.length();
+    if size > FAR {
+        return share * turn;
+    }
+    let c = if size < 1e-2 {
+        1.0 / 12.0
+    } else {
+        1.0 / (size * size) - (1.0 + size.cos()) / (2.0 * size * size.sin())
+    };
+    let cross = turn.cross(to.before.angular);
+    let (first, last) = (from.after.angular, to.before.angular - 0.5 * cross + c * turn.cross(cross));
+    let (left, square) = (1.0 - share, share * share);
+    square * (3.0 - 2.0 * share) * turn + whole * share * left * (left * first - share * last)
 }
 
 /// How far a stretch is from free flight.
