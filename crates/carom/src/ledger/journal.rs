@@ -1,6 +1,6 @@
 //! What is noted while a step goes on.
 
-use super::contacts::Exerted;
+use super::contacts::{Causes, Exerted, Push};
 use super::{Posts, Residual, Stock};
 use crate::bodies::Bodies;
 use crate::math::{DQuat, DVec3};
@@ -26,6 +26,10 @@ pub(crate) struct Journal {
     is_known: bool,
     /// What contacts exert in the present substep.
     pub exerted: Option<Exerted>,
+    /// Row by row, by which causes: nothing, where no substep is under way.
+    pub causes: Vec<Causes>,
+    /// Row by row, what contacts give along their normals that bounce when struck faster; empty if there are none.
+    pub rebounds: Vec<Push>,
     /// A body was lost.
     lost: bool,
 }
@@ -125,6 +129,7 @@ impl Journal {
         self.tallies.resize(rows, Tally::default());
         self.passages.resize(rows, Passage::default());
         self.rotations.resize(rows, DQuat::IDENTITY);
+        self.causes.resize(rows, Causes::default());
         self.sum
     }
 
