@@ -3,6 +3,7 @@
 //! An impulse P at a place with the moment M about a body's centre does the work `P·v̄ + M·ω̄`: exactly, if v̄ and ω̄ are the means of
 //! the velocities before and after where it acts at once, and over the path where it acts evenly.
 
+use super::Residual;
 use super::journal::{CAPTURE, CORRECTION, Journal, Passage, Path};
 use super::stock::Stock;
 use crate::bodies::{Bodies, WORLD_ROW};
@@ -75,12 +76,11 @@ pub(crate) fn settle(bodies: &mut Bodies) {
     if let Some(exerted) = journal.exerted.take() {
         for row in 0..exerted.impulses.len() {
             journal.book_row(bodies, row, &exerted);
+            // Whoever is held in the next substep will be told so.
+            journal.passages[row] = Passage::default();
         }
         journal.rebounds.clear();
     }
-    // Whoever is held in the next substep will be told so.
-    let Journal { led, passages, .. } = &mut *journal;
-    led.drain(..).for_each(|row| passages[row] = Passage::default());
     bodies.journal = Some(journal);
 }
 
@@ -88,6 +88,8 @@ pub(crate) fn settle(bodies: &mut Bodies) {
 #[inline]
 pub(crate) fn captured(bodies: &mut Bodies, row: usize, [impulse, turn]: [DVec3; 2]) {
     if let Some(journal) = bodies.journal.as_deref_mut() {
+        // What nothing pushes along keeps its velocity.
+        let impulse = if bodies.constants[row].inverse_mass > 0.0 { impulse } else { DVec3::ZERO };
         journal.causes[row].capture = Push { impulse, turn };
     }
 }
@@ -114,27 +116,41 @@ impl Journal {
         let Causes { friction, capture } = std::mem::take(&mut self.causes[row]);
         let push = Push { impulse: exerted.impulses[row], turn: exerted.turns[row] };
         let (center, rate) = (exerted.centers[row], 1.0 / exerted.time);
-        let (constants, path) = (&bodies.constants[row], self.passages[row].path);
-        if path != Path::Free && constants.is_regular() {
-            self.book_capture(row, (capture, center), rate);
-            let work = push.along(&self.passages[row]) * rate;
-            self.tallies[row].get(push.impulse, push.moment(center), work);
-        } else if path != Path::Free || (row != WORLD_ROW && !constants.is_movable()) {
-            // Before its passage becomes that along which contacts worked.
-            let impulse = if constants.inverse_mass == 0.0 { DVec3::ZERO } else { capture.impulse };
-            self.book_capture(row, (Push { impulse, ..capture }, center), rate);
-            self.book_driven(bodies, row, (push, center, exerted.time));
-        } else {
+        let (constants, passage) = (&bodies.constants[row], self.passages[row]);
+        let is_led = passage.path != Path::Free;
+        if !is_led && (row == WORLD_ROW || constants.is_movable()) {
             // The ground, and what sleeps: nothing moves along there, so that there is no work.
             self.posts.fixed.add(-push.impulse, -push.moment(center));
             return;
         }
-        self.book_works(row, (push, friction), rate);
+        let mut got = Residual::default();
+        if is_led {
+            let work = capture.along(&passage) * rate;
+            got = Residual { linear: capture.impulse, angular: capture.moment(center), energy: work };
+            self.posts.fixed.add(got.linear, got.angular);
+            self.posts.loss_rest_capture -= work;
+            self.tallies[row].artefacts[CAPTURE] += work;
+        }
+        let mut driven = passage;
+        if is_led && constants.is_regular() {
+            got.linear += push.impulse;
+            got.angular += push.moment(center);
+            got.energy += push.along(&passage) * rate;
+        } else {
+            driven = self.book_driven(bodies, row, (push, center, exerted.time));
+        }
+        self.tallies[row].get(got.linear, got.angular, got.energy);
+        self.book_works(row, (push, friction), (&driven, rate));
     }
 
     /// Books what contacts give to what is kinematic, or has an infinite mass or inertia: what it does not take goes to the account of
-    /// what is driven. It gets the passage along which they worked.
-    fn book_driven(&mut self, bodies: &Bodies, row: usize, (push, center, time): (Push, DVec3, f64)) {
+    /// what is driven. Returns the passage along which they worked.
+    fn book_driven(
+        &mut self,
+        bodies: &Bodies,
+        row: usize,
+        (push, center, time): (Push, DVec3, f64),
+    ) -> Passage {
         let Push { impulse, turn } = push;
         let (state, constants, passage) = (&bodies.states[row], &bodies.constants[row], self.passages[row]);
         let is_led = passage.path != Path::Free;
@@ -144,12 +160,11 @@ impl Journal {
         if constants.inverse_mass == 0.0 {
             driven.way = state.velocity * time;
         }
-        self.lead(row, driven);
         let work = push.along(&driven) / time;
         if !is_led {
             self.posts.kinematic.add(-impulse, -push.moment(center));
             self.posts.work_kinematic -= work;
-            return;
+            return driven;
         }
         let taken = constants.turning_part(rotation, turn);
         let (mut linear, mut kept) = (impulse, taken.dot(passage.turn) / time);
@@ -162,13 +177,13 @@ impl Journal {
         self.posts.work_kinematic -= work - kept;
         self.posts.kinematic.angular += taken - turn;
         self.tallies[row].get(linear, center.cross(linear) + taken, kept);
+        driven
     }
 
     /// Books the work that contacts do on the body of a row, cause by cause: of what they give together, `friction` is one part, what would
     /// bounce another one.
     #[inline]
-    fn book_works(&mut self, row: usize, (push, friction): (Push, Push), rate: f64) {
-        let passage = &self.passages[row];
+    fn book_works(&mut self, row: usize, (push, friction): (Push, Push), (passage, rate): (&Passage, f64)) {
         let normal = Push { impulse: push.impulse - friction.impulse, turn: push.turn - friction.turn };
         self.posts.loss_friction -= friction.along(passage) * rate;
         let mut work = normal.along(passage) * rate;
@@ -179,16 +194,6 @@ impl Journal {
             work -= captured;
         }
         self.posts.loss_contact -= work;
-    }
-
-    #[inline]
-    fn book_capture(&mut self, row: usize, (capture, center): (Push, DVec3), rate: f64) {
-        let work = capture.along(&self.passages[row]) * rate;
-        let (tally, moment) = (&mut self.tallies[row], capture.moment(center));
-        self.posts.fixed.add(capture.impulse, moment);
-        self.posts.loss_rest_capture -= work;
-        tally.get(capture.impulse, moment, work);
-        tally.artefacts[CAPTURE] += work;
     }
 }
 

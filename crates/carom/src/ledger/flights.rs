@@ -212,13 +212,13 @@ pub(crate) fn set_out(bodies: &mut Bodies, row: usize, before: &RigidState, (tim
         journal.rotations[row] = before.rotation;
     }
     if steady {
-        journal.lead(row, Passage { path: Path::Steady, ..Passage::default() });
+        journal.passages[row] = Passage { path: Path::Steady, ..Passage::default() };
         return;
     }
     let way = (before.velocity + after.velocity) * (0.5 * time);
     let momentum = 0.5 * (before.angular_momentum + after.angular_momentum);
     let turn = constants.free_spin(before.rotation, momentum) * time;
-    journal.lead(row, Passage { path: Path::Kicked, way, turn });
+    journal.passages[row] = Passage { path: Path::Kicked, way, turn };
 
     let (posts, tally) = (&mut journal.posts, &mut journal.tallies[row]);
     let (mut push, torque) = bodies.forces[row];

@@ -17,8 +17,6 @@ pub(crate) struct Journal {
     pub passages: Vec<Passage>,
     /// Orientations when they set out of those of which something is infinite.
     pub rotations: Vec<DQuat>,
-    /// Rows whose passages are other than those of what nothing holds.
-    pub led: Vec<usize>,
     /// Sums of what the bodies had at the end of the last step, with and without directions.
     sum: Stock,
     gross: [f64; 3],
@@ -171,12 +169,6 @@ impl Journal {
     /// Somebody changes bodies between steps.
     pub fn forget(&mut self) {
         self.is_known = false;
-    }
-
-    /// What a body that contacts hold does in the present substep.
-    pub fn lead(&mut self, row: usize, passage: Passage) {
-        self.passages[row] = passage;
-        self.led.push(row);
     }
 
     /// The body of a row is no more; that of the last row gets its row.
