@@ -3,88 +3,173 @@
 //! An impulse P at a place with the moment M about a body's centre does the work `P·v̄ + M·ω̄`: exactly, if v̄ and ω̄ are the means of
 //! the velocities before and after where it acts at once, and over the path where it acts evenly.
 
+use super::Residual;
 use super::journal::{CAPTURE, CORRECTION, Journal, Passage, Path};
 use super::stock::Stock;
 use crate::bodies::{Bodies, WORLD_ROW};
 use crate::math::DVec3;
 use crate::solver::graph::Wrench;
 
-/// What contacts exert during a substep.
+/// What contacts exert during a substep, row by row.
 #[derive(Clone, Debug)]
 pub(crate) struct Exerted {
-    pub wrenches: Vec<Wrench>,
-    /// Whether each of them bounces when it is struck faster.
-    pub bounces: Vec<bool>,
-    /// Row by row, what they give together: impulse, and angular impulse about the centre of mass.
+    /// What they give together: impulse, and angular impulse about the centre of mass.
     pub impulses: Vec<DVec3>,
     pub turns: Vec<DVec3>,
-    /// Row by row, where the centres of mass are when the impulses act, or in the mean.
+    /// Where the centres of mass are when the impulses act, or in the mean.
     pub centers: Vec<DVec3>,
-    /// What rest capture gives: row, impulse, angular impulse.
-    pub captures: Vec<(usize, [DVec3; 2])>,
     /// Length of the substep, s.
     pub time: f64,
+}
+
+/// What a body gets: an impulse, N·s, and an angular impulse about its centre of mass, N·m·s.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Push {
+    impulse: DVec3,
+    turn: DVec3,
+}
+
+/// What a body gets in a substep by causes of its own account.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Causes {
+    /// Part of what contacts give: friction and twist.
+    friction: Push,
+    /// What rest capture gives besides.
+    capture: Push,
+}
+
+impl Push {
+    /// What it is times the passage along which it acts evenly, J·s: over the time of that passage, its work.
+    #[inline]
+    fn along(&self, passage: &Passage) -> f64 {
+        self.impulse.dot(passage.way) + self.turn.dot(passage.turn)
+    }
+
+    /// Angular momentum about the origin that a body gets whose centre of mass is there, N·m·s.
+    #[inline]
+    fn moment(&self, center: DVec3) -> DVec3 {
+        center.cross(self.impulse) + self.turn
+    }
+}
+
+/// Adds what a contact exerts by one of its causes (impulse, moment) to what that cause gives to its two bodies. Both turns
+/// are seen from the mean centre, at a share of the way d between the `centers`: one product `d × P` does for both.
+#[inline]
+fn add_sides(
+    pushes: [&mut Push; 2],
+    wrench: &Wrench,
+    [impulse, moment]: [DVec3; 2],
+    [center_a, center_b]: [DVec3; 2],
+) {
+    let [a, b] = pushes;
+    let lever = (center_b - center_a).cross(impulse);
+    let from_a = lever * wrench.share;
+    a.impulse -= impulse;
+    a.turn -= moment + from_a;
+    b.impulse += impulse;
+    b.turn += moment + from_a - lever;
 }
 
 /// Books what contacts have exerted in the substep that is over.
 pub(crate) fn settle(bodies: &mut Bodies) {
     let Some(mut journal) = bodies.journal.take() else { return };
     if let Some(exerted) = journal.exerted.take() {
-        // Before the passages of what is driven become those along which contacts worked.
-        for &(row, push) in &exerted.captures {
-            journal.book_capture(bodies, (row, push), &exerted);
-        }
         for row in 0..exerted.impulses.len() {
-            journal.book_push(bodies, row, &exerted);
+            journal.book_row(bodies, row, &exerted);
+            // Whoever is held in the next substep will be told so.
+            journal.passages[row] = Passage::default();
         }
-        journal.book_works(&exerted);
+        journal.rebounds.clear();
     }
-    // Whoever is held in the next substep will be told so.
-    let Journal { led, passages, .. } = &mut *journal;
-    led.drain(..).for_each(|row| passages[row] = Passage::default());
     bodies.journal = Some(journal);
 }
 
+/// Notes what rest capture gives to the body of a row in this substep: impulse, angular impulse.
+#[inline]
+pub(crate) fn captured(bodies: &mut Bodies, row: usize, [impulse, turn]: [DVec3; 2]) {
+    if let Some(journal) = bodies.journal.as_deref_mut() {
+        // What nothing pushes along keeps its velocity.
+        let impulse = if bodies.constants[row].inverse_mass > 0.0 { impulse } else { DVec3::ZERO };
+        journal.causes[row].capture = Push { impulse, turn };
+    }
+}
+
 impl Journal {
-    /// Books what all contacts together have given to the body of a row. What does not fly on a passage of its own gets one: that
-    /// along which the impulses worked.
+    /// Notes by which cause a contact exerts what it does on two bodies whose centres of mass are there, while whoever gives it to them
+    /// has it at hand: causes add up body by body as the whole does, so that no contact has to be gone through again.
     #[inline]
-    fn book_push(&mut self, bodies: &Bodies, row: usize, exerted: &Exerted) {
-        let (impulse, turn, center) = (exerted.impulses[row], exerted.turns[row], exerted.centers[row]);
-        let (constants, passage) = (&bodies.constants[row], &self.passages[row]);
-        if passage.path != Path::Free && constants.is_regular() {
-            let work = (impulse.dot(passage.way) + turn.dot(passage.turn)) * (1.0 / exerted.time);
-            self.tallies[row].get(impulse, center.cross(impulse) + turn, work);
-        } else if passage.path != Path::Free || (row != WORLD_ROW && !constants.is_movable()) {
-            self.book_driven(bodies, row, exerted);
-        } else if impulse != DVec3::ZERO || turn != DVec3::ZERO {
-            // The ground, and what sleeps.
-            self.posts.fixed.add(-impulse, -(center.cross(impulse) + turn));
+    pub fn note_causes(&mut self, wrench: &Wrench, centers: [DVec3; 2], bounces: bool) {
+        if let Ok(sides) = self.causes.get_disjoint_mut(wrench.rows) {
+            add_sides(sides.map(|causes| &mut causes.friction), wrench, wrench.across, centers);
+        }
+        if bounces {
+            self.rebounds.resize(self.causes.len(), Push::default());
+            if let Ok(sides) = self.rebounds.get_disjoint_mut(wrench.rows) {
+                add_sides(sides, wrench, wrench.normal, centers);
+            }
         }
     }
 
-    /// The same of what is kinematic, or has an infinite mass or inertia: what it does not take goes to the account of what is driven.
-    fn book_driven(&mut self, bodies: &Bodies, row: usize, exerted: &Exerted) {
-        let (impulse, turn, center) = (exerted.impulses[row], exerted.turns[row], exerted.centers[row]);
+    /// Books what contacts and rest capture have given to the body of a row.
+    #[inline]
+    fn book_row(&mut self, bodies: &Bodies, row: usize, exerted: &Exerted) {
+        let Causes { friction, capture } = std::mem::take(&mut self.causes[row]);
+        let push = Push { impulse: exerted.impulses[row], turn: exerted.turns[row] };
+        let (center, rate) = (exerted.centers[row], 1.0 / exerted.time);
+        let (constants, passage) = (&bodies.constants[row], self.passages[row]);
+        let is_led = passage.path != Path::Free;
+        if !is_led && (row == WORLD_ROW || constants.is_movable()) {
+            // The ground, and what sleeps: nothing moves along there, so that there is no work.
+            self.posts.fixed.add(-push.impulse, -push.moment(center));
+            return;
+        }
+        let mut got = Residual::default();
+        if is_led {
+            let work = capture.along(&passage) * rate;
+            got = Residual { linear: capture.impulse, angular: capture.moment(center), energy: work };
+            self.posts.fixed.add(got.linear, got.angular);
+            self.posts.loss_rest_capture -= work;
+            self.tallies[row].artefacts[CAPTURE] += work;
+        }
+        let mut driven = passage;
+        if is_led && constants.is_regular() {
+            got.linear += push.impulse;
+            got.angular += push.moment(center);
+            got.energy += push.along(&passage) * rate;
+        } else {
+            driven = self.book_driven(bodies, row, (push, center, exerted.time));
+        }
+        self.tallies[row].get(got.linear, got.angular, got.energy);
+        self.book_works(row, (push, friction), (&driven, rate));
+    }
+
+    /// Books what contacts give to what is kinematic, or has an infinite mass or inertia: what it does not take goes to the account of
+    /// what is driven. Returns the passage along which they worked.
+    fn book_driven(
+        &mut self,
+        bodies: &Bodies,
+        row: usize,
+        (push, center, time): (Push, DVec3, f64),
+    ) -> Passage {
+        let Push { impulse, turn } = push;
         let (state, constants, passage) = (&bodies.states[row], &bodies.constants[row], self.passages[row]);
         let is_led = passage.path != Path::Free;
         let rotation = if is_led { self.rotations[row] } else { state.rotation };
         let mut driven = passage;
-        driven.turn += constants.driven_velocity(rotation) * exerted.time;
+        driven.turn += constants.driven_velocity(rotation) * time;
         if constants.inverse_mass == 0.0 {
-            driven.way = state.velocity * exerted.time;
+            driven.way = state.velocity * time;
         }
-        self.lead(row, driven);
-        let work = (impulse.dot(driven.way) + turn.dot(driven.turn)) / exerted.time;
+        let work = push.along(&driven) / time;
         if !is_led {
-            self.posts.kinematic.add(-impulse, -(center.cross(impulse) + turn));
+            self.posts.kinematic.add(-impulse, -push.moment(center));
             self.posts.work_kinematic -= work;
-            return;
+            return driven;
         }
         let taken = constants.turning_part(rotation, turn);
-        let (mut linear, mut kept) = (impulse, taken.dot(passage.turn) / exerted.time);
+        let (mut linear, mut kept) = (impulse, taken.dot(passage.turn) / time);
         if constants.inverse_mass > 0.0 {
-            kept += impulse.dot(passage.way) / exerted.time;
+            kept += impulse.dot(passage.way) / time;
         } else {
             self.posts.kinematic.add(-impulse, -center.cross(impulse));
             linear = DVec3::ZERO;
@@ -92,65 +177,23 @@ impl Journal {
         self.posts.work_kinematic -= work - kept;
         self.posts.kinematic.angular += taken - turn;
         self.tallies[row].get(linear, center.cross(linear) + taken, kept);
+        driven
     }
 
-    /// Books the work of each contact, cause by cause.
-    ///
-    /// The mean centre at the share s of the way d between the centres moves against itself, as a point of the one body and of the
-    /// other, by `Δx_b − Δx_a − ((1 − s)·φ_b + s·φ_a) × d`, with the ways Δx of the centres and the turns φ.
-    fn book_works(&mut self, exerted: &Exerted) {
-        let rate = 1.0 / exerted.time;
-        let [mut friction, mut contact, mut capture] = [0.0; 3];
-        for (wrench, &bounces) in exerted.wrenches.iter().zip(&exerted.bounces) {
-            let [a, b] = wrench.rows.map(|row| &self.passages[row]);
-            let [center_a, center_b] = wrench.rows.map(|row| exerted.centers[row]);
-            let turn = b.turn - a.turn;
-            let mean_turn = b.turn - turn * wrench.share;
-            let way = (b.way - a.way) - mean_turn.cross(center_b - center_a);
-            let work = |push: [DVec3; 2]| push[0].dot(way) + push[1].dot(turn);
-            friction += work(wrench.across);
-            let normal = work(wrench.normal);
-            if bounces {
-                capture += normal;
-                self.book_bounce(wrench, exerted);
-            } else {
-                contact += normal;
-            }
+    /// Books the work that contacts do on the body of a row, cause by cause: of what they give together, `friction` is one part, what would
+    /// bounce another one.
+    #[inline]
+    fn book_works(&mut self, row: usize, (push, friction): (Push, Push), (passage, rate): (&Passage, f64)) {
+        let normal = Push { impulse: push.impulse - friction.impulse, turn: push.turn - friction.turn };
+        self.posts.loss_friction -= friction.along(passage) * rate;
+        let mut work = normal.along(passage) * rate;
+        if let Some(rebound) = self.rebounds.get(row) {
+            let captured = rebound.along(passage) * rate;
+            self.posts.loss_rest_capture -= captured;
+            self.tallies[row].artefacts[CAPTURE] += captured;
+            work -= captured;
         }
-        self.posts.loss_friction -= friction * rate;
-        self.posts.loss_contact -= contact * rate;
-        self.posts.loss_rest_capture -= capture * rate;
-    }
-
-    /// Notes what a contact that would bounce does to its two bodies.
-    fn book_bounce(&mut self, wrench: &Wrench, exerted: &Exerted) {
-        let centers = wrench.rows.map(|row| exerted.centers[row]);
-        let [impulse, moment] = wrench.normal;
-        for (side, sign) in [(0, -1.0), (1, 1.0)] {
-            let row = wrench.rows[side];
-            let passage = &self.passages[row];
-            let way = passage.way + passage.turn.cross(wrench.offset(side, centers));
-            let work = sign * (impulse.dot(way) + moment.dot(passage.turn)) / exerted.time;
-            self.tallies[row].artefacts[CAPTURE] += work;
-        }
-    }
-
-    fn book_capture(
-        &mut self,
-        bodies: &Bodies,
-        (row, [mut impulse, turn]): (usize, [DVec3; 2]),
-        at: &Exerted,
-    ) {
-        if bodies.constants[row].inverse_mass == 0.0 {
-            impulse = DVec3::ZERO;
-        }
-        let (passage, tally) = (&self.passages[row], &mut self.tallies[row]);
-        let work = (impulse.dot(passage.way) + turn.dot(passage.turn)) * (1.0 / at.time);
-        let moment = at.centers[row].cross(impulse) + turn;
-        self.posts.fixed.add(impulse, moment);
-        self.posts.loss_rest_capture -= work;
-        tally.get(impulse, moment, work);
-        tally.artefacts[CAPTURE] += work;
+        self.posts.loss_contact -= work;
     }
 }
 

@@ -53,11 +53,10 @@ pub(crate) fn flown(bodies: &mut Bodies, row: usize, before: &RigidState, time: 
             Path::Kicked => false,
         },
     };
-    if constants.inverse_mass > 0.0 {
-        flight.book_center(journal, row);
-    }
-    if flight.turns() {
-        flight.book_turning(journal, row);
+    if flight.is_plain() {
+        flight.book_plain(journal, row);
+    } else {
+        flight.book(journal, row);
     }
 }
 
@@ -94,6 +93,41 @@ fn weight(constants: &Constants, gravity: DVec3) -> DVec3 {
 }
 
 impl Flight<'_> {
+    /// Whether contacts and gravity alone act on it, evenly, and it turns about all axes alike: so most of what rests.
+    #[inline]
+    fn is_plain(&self) -> bool {
+        let constants = self.constants;
+        self.path == Path::Steady
+            && constants.is_isotropic()
+            && constants.inverse_mass > 0.0
+            && constants.linear_damping == 0.0
+            && constants.angular_damping == 0.0
+            && self.push == DVec3::ZERO
+            && self.torque == DVec3::ZERO
+    }
+
+    /// The same as [`Flight::book`] does where that is all: how long gravity acts and where, and the passage along which contacts work. However
+    /// it is turned, the mean of its angular velocities is that of the mean of its angular momenta.
+    #[inline]
+    fn book_plain(&self, journal: &mut Journal, row: usize) {
+        let (before, after, constants, time) = (self.before, self.after, self.constants, self.time);
+        journal.tallies[row].falls(mean_center(before, constants, self.influence, time), time);
+        let passage = &mut journal.passages[row];
+        passage.way += after.position - before.position;
+        let momentum = 0.5 * (before.angular_momentum + after.angular_momentum);
+        passage.turn += constants.free_spin(before.rotation, momentum) * time;
+    }
+
+    #[inline(never)]
+    fn book(&self, journal: &mut Journal, row: usize) {
+        if self.constants.inverse_mass > 0.0 {
+            self.book_center(journal, row);
+        }
+        if self.turns() {
+            self.book_turning(journal, row);
+        }
+    }
+
     fn book_center(&self, journal: &mut Journal, row: usize) {
         let (posts, tally) = (&mut journal.posts, &mut journal.tallies[row]);
         let way = self.after.position - self.before.position;
@@ -212,13 +246,13 @@ pub(crate) fn set_out(bodies: &mut Bodies, row: usize, before: &RigidState, (tim
         journal.rotations[row] = before.rotation;
     }
     if steady {
-        journal.lead(row, Passage { path: Path::Steady, ..Passage::default() });
+        journal.passages[row] = Passage { path: Path::Steady, ..Passage::default() };
         return;
     }
     let way = (before.velocity + after.velocity) * (0.5 * time);
     let momentum = 0.5 * (before.angular_momentum + after.angular_momentum);
     let turn = constants.free_spin(before.rotation, momentum) * time;
-    journal.lead(row, Passage { path: Path::Kicked, way, turn });
+    journal.passages[row] = Passage { path: Path::Kicked, way, turn };
 
     let (posts, tally) = (&mut journal.posts, &mut journal.tallies[row]);
     let (mut push, torque) = bodies.forces[row];

@@ -1,6 +1,6 @@
 //! What is noted while a step goes on.
 
-use super::contacts::Exerted;
+use super::contacts::{Causes, Exerted, Push};
 use super::{Posts, Residual, Stock};
 use crate::bodies::Bodies;
 use crate::math::{DQuat, DVec3};
@@ -17,8 +17,6 @@ pub(crate) struct Journal {
     pub passages: Vec<Passage>,
     /// Orientations when they set out of those of which something is infinite.
     pub rotations: Vec<DQuat>,
-    /// Rows whose passages are other than those of what nothing holds.
-    pub led: Vec<usize>,
     /// Sums of what the bodies had at the end of the last step, with and without directions.
     sum: Stock,
     gross: [f64; 3],
@@ -26,6 +24,10 @@ pub(crate) struct Journal {
     is_known: bool,
     /// What contacts exert in the present substep.
     pub exerted: Option<Exerted>,
+    /// Row by row, by which causes: nothing, where no substep is under way.
+    pub causes: Vec<Causes>,
+    /// Row by row, what contacts give along their normals that bounce when struck faster; empty if there are none.
+    pub rebounds: Vec<Push>,
     /// A body was lost.
     lost: bool,
 }
@@ -125,6 +127,7 @@ impl Journal {
         self.tallies.resize(rows, Tally::default());
         self.passages.resize(rows, Passage::default());
         self.rotations.resize(rows, DQuat::IDENTITY);
+        self.causes.resize(rows, Causes::default());
         self.sum
     }
 
@@ -166,12 +169,6 @@ impl Journal {
     /// Somebody changes bodies between steps.
     pub fn forget(&mut self) {
         self.is_known = false;
-    }
-
-    /// What a body that contacts hold does in the present substep.
-    pub fn lead(&mut self, row: usize, passage: Passage) {
-        self.passages[row] = passage;
-        self.led.push(row);
     }
 
     /// The body of a row is no more; that of the last row gets its row.

@@ -9,7 +9,7 @@ use super::{Rest, Span};
 use crate::bodies::Bodies;
 use crate::flight::{Influence, mean_center};
 use crate::impacts::time_of_impact::RestLaw;
-use crate::ledger::contacts::Exerted;
+use crate::ledger::contacts::{Exerted, captured};
 use crate::ledger::flights::set_out;
 use crate::math::DVec3;
 use crate::solver::graph::Wrench;
@@ -55,13 +55,13 @@ impl Rest {
     pub(super) fn give(
         &mut self,
         bodies: &mut Bodies,
-        wrenches: Vec<Wrench>,
+        wrenches: &[Wrench],
         held: &[Held],
         (law, span): (RestLaw, Span),
     ) {
         let substep = span.until - span.from;
         let mut impulses = vec![DVec3::ZERO; bodies.states.len()];
-        for wrench in &wrenches {
+        for wrench in wrenches {
             let [a, b] = wrench.rows;
             impulses[a] -= wrench.impulse();
             impulses[b] += wrench.impulse();
@@ -74,28 +74,30 @@ impl Rest {
             changes.push(change);
         }
         let mut turns = vec![DVec3::ZERO; impulses.len()];
-        for wrench in &wrenches {
+        for wrench in wrenches {
             let push = [wrench.impulse(), wrench.moment()];
+            let centers = wrench.rows.map(|row| centers[row]);
             for (side, row) in wrench.rows.into_iter().enumerate() {
-                turns[row] += wrench.turn(side, push, wrench.rows.map(|row| centers[row]));
+                turns[row] += wrench.turn(side, push, centers);
+            }
+            if let Some(journal) = &mut bodies.journal {
+                journal.note_causes(wrench, centers, self.owners[wrench.contact.index()].bounces);
             }
         }
-        let mut captures = Vec::new();
         for (body, mut change) in held.iter().zip(changes) {
             let row = body.row;
             let rotation = bodies.states[row].rotation;
             change.momentum = body.gain[1] + bodies.constants[row].turning_part(rotation, turns[row]);
             if change.captured {
                 let turn = capture_spin(bodies, row, &mut change, law);
-                captures.push((row, [change.captured_velocity * bodies.constants[row].mass(), turn]));
+                let impulse = change.captured_velocity * bodies.constants[row].mass();
+                captured(bodies, row, [impulse, turn]);
             }
             follow(bodies, body, &change, span);
             set_pace(bodies, row, span.until);
         }
         if let Some(journal) = &mut bodies.journal {
-            let bounces = wrenches.iter().map(|wrench| self.owners[wrench.contact.index()].bounces).collect();
-            journal.exerted =
-                Some(Exerted { wrenches, bounces, impulses, turns, centers, captures, time: substep });
+            journal.exerted = Some(Exerted { impulses, turns, centers, time: substep });
         }
     }
 

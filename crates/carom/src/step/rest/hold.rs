@@ -92,7 +92,7 @@ impl Rest {
                 rough: is_rough[row],
             })
             .collect();
-        self.give(bodies, wrenches, &held, (law, span));
+        self.give(bodies, &wrenches, &held, (law, span));
         rows
     }
 
