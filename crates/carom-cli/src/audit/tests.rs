@@ -295,9 +295,9 @@ fn a_body_that_tumbles_fast_is_followed_through_a_step() {
         (world, capsule)
     };
     let (mut whole, capsule) = world();
-    let start = motion::snapshot(&whole);
+    let start = snapshot(&whole);
     whole.step(0.02);
-    let course = &motion::courses(&whole, (&start, &motion::snapshot(&whole)), &[])[&capsule];
+    let course = &courses(&whole, (&start, &snapshot(&whole)), &[])[&capsule];
     for time in [0.004, 0.01, 0.0132, 0.018] {
         let (mut part, capsule) = world();
         part.step(time);
