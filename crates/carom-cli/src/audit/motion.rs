@@ -6,7 +6,7 @@
 use super::law::ROUNDING;
 use super::strike::{Party, Strike};
 use carom::impulse::Velocity;
-use carom::math::{DQuat, DVec3, Pose, rotated_diagonal};
+use carom::math::{DQuat, DVec3, Pose};
 use carom::{BodyId, Motion, World};
 use std::collections::BTreeMap;
 
@@ -34,9 +34,9 @@ pub(super) struct Course {
     pub(super) damping: [f64; 2],
     /// From the body's origin to its centre of mass, m.
     pub(super) center: f64,
-    /// Principal moments of inertia (zero where infinite), kg·m², and their axes in the body's frame.
-    inertia: (DVec3, DQuat),
     pub(super) knots: Vec<Knot>,
+    /// Whether nothing touched it, stretch by stretch between its knots.
+    flies: Vec<bool>,
 }
 
 /// Where and how bodies are at the end of a step.
@@ -78,11 +78,8 @@ pub(super) fn courses(
             gravity: if is_dynamic { body.gravity_factor * world.settings().gravity } else { DVec3::ZERO },
             damping,
             center: mass.center.length(),
-            inertia: (
-                mass.moments.map(|moment| if moment.is_finite() { moment } else { 0.0 }),
-                mass.principal_rotation,
-            ),
             knots: vec![*first, *last],
+            flies: Vec::new(),
         };
         courses.insert(id, course);
     }
@@ -96,6 +93,10 @@ pub(super) fn courses(
                 course.insert(strike, side);
             }
         }
+    }
+    for course in courses.values_mut() {
+        let flies = |(from, to)| deviation(world, course, from, to).is_some_and(|it| it.is_free());
+        course.flies = course.pieces().map(flies).collect();
     }
     courses
 }
@@ -153,18 +154,9 @@ impl Course {
         let share = (part / whole).min(1.0);
         let miss = to.pose.position - self.flown(from, whole).0;
         let position = self.flown(from, part).0 + share * miss;
-        let turn = if self.turns_freely(from, to) { turned(from, to, share) } else { share * turn(from, to) };
+        let turn = if self.flies[after - 1] { turned(from, to, share) } else { share * turn(from, to) };
         let turned = DQuat::from_scaled_axis(turn);
         Pose::new(position, (turned * from.pose.rotation).normalize())
-    }
-
-    /// Whether nothing changes its angular momentum from one knot to the next.
-    fn turns_freely(&self, from: &Knot, to: &Knot) -> bool {
-        let momentum = |pose: &Pose, velocity: &Velocity| {
-            rotated_diagonal(pose.rotation * self.inertia.1, self.inertia.0) * velocity.angular
-        };
-        let before = self.spin_left(to.time - from.time) * momentum(&from.pose, &from.after);
-        momentum(&to.pose, &to.before).distance(before) <= UNTOUCHED * before.length()
     }
 
     /// How fast its centre moves at most, m/s, and its turning, rad/s.
@@ -191,13 +183,10 @@ fn turn(from: &Knot, to: &Knot) -> DVec3 {
     shortest + axis * (((guess - shortest).dot(axis) / full).round() * full)
 }
 
-/// What keeps its angular momentum to within this share of it turns freely.
-const UNTOUCHED: f64 = 1e-4;
-
 /// A turn (rad) beyond which it is not told from both ends' angular velocities how it comes about.
 const FAR: f64 = 2.5;
 
-/// The turn of what turns freely until a `share` of the time between two knots has passed, rad: the cubic that has the angular velocities
+/// The turn of what flies until a `share` of the time between two knots has passed, rad: the cubic that has the angular velocities
 /// of both as well.
 ///
 /// With `r` the vector of the turn so far, `ω = J(r)·ṙ`, and (Chirikjian, *Stochastic Models, Information Theory, and Lie Groups* 2,
