@@ -148,4 +148,39 @@ mod tests {
             }
         }
     }
+
+    /// Thirty-four boxes on each other slide along a wall, which contacts see but which is out of their reach. Such a pair was looked at in
+    /// every substep: one of its contacts had left, and the others had not.
+    #[test]
+    fn a_pair_with_one_contact_of_several_out_of_reach_is_not_looked_at_all_the_time() {
+        let mut world = World::new();
+        let corners = [(0.0, 0.0, -9.0), (0.0, 0.0, 9.0), (5.0, 0.0, 9.0), (5.0, 0.0, -9.0)];
+        let wall = [(0.0, 2.0, -9.0), (0.0, 2.0, 9.0)];
+        let vertices = corners.into_iter().chain(wall).map(DVec3::from).collect();
+        let ground = Shape::mesh(vertices, vec![[0, 1, 2], [0, 2, 3], [0, 4, 5], [0, 5, 1]]);
+        world.add(Body::fixed().with(ground.expect("triangles")).friction(0.0));
+        for number in 0..34 {
+            let cube = Body::dynamic().with(Shape::cuboid(1.0, 1.0, 1.0)).friction(0.0);
+            world.add(cube.at(0.55, 0.5 + f64::from(number), 0.3).moving(0.0, 0.0, 0.05));
+        }
+        let mut looks = 0;
+        let mut last = Vec::new();
+        for step in 0..40 {
+            world.step_validated(STEP);
+            let (rest, pairs) = (&world.rest, &world.pairs);
+            let lowest = rest.resting.iter().map(|&index| &pairs[index]).find(|pair| pair.rows[0] == 0);
+            let supports = &lowest.expect("it stands on the ground").supports;
+            let now: Vec<[f32; 3]> = supports
+                .iter()
+                .map(|support| [0, 1, 2].map(|axis| rest.graph.get(support.contact, field::DRIFTED + axis)))
+                .collect();
+            if step >= 20 {
+                assert!(supports.iter().any(|support| rest.graph.has_left(support.contact)), "step {step}");
+                assert!(!supports.iter().all(|support| rest.graph.has_left(support.contact)), "step {step}");
+                looks += usize::from(now != last);
+            }
+            last = now;
+        }
+        assert!((1..=8).contains(&looks), "looked at in {looks} of 20 steps");
+    }
 }
