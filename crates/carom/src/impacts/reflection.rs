@@ -20,10 +20,12 @@
 //! scaling are ours.
 
 mod friction;
+mod haste;
 
 use crate::fault;
 use crate::impulse::{Contact, Resolution, Side, Velocity, resolve};
 use crate::math::{DMat3, DVec3, any_tangent};
+use haste::Haste;
 
 /// Sweeps over all contacts of a round, which end when they change no speed by more than this share of the fastest.
 const SWEEPS: usize = 400;
@@ -267,12 +269,18 @@ impl<'a> Round<'a> {
 
     /// Lets one spot after the other `act`, which tells how much it has changed a speed (m/s), until nothing changes by more than a
     /// share of the fastest or what is negligible; at most so many times. Spots none of whose bodies has changed since have nothing
-    /// to do.
+    /// to do. Where something is negligible, sweeps make [haste](Haste).
     fn sweep(&mut self, (sweeps, agreement): (usize, f64), act: impl Fn(&mut Self, usize) -> f64) {
         let limit = (agreement * self.fastest).max(self.negligible);
         let can_stir: Vec<bool> = self.movers.iter().map(Mover::is_movable).collect();
         let (mut stirred, mut stirs) = (vec![true; self.movers.len()], vec![false; self.movers.len()]);
+        let mut haste = (self.negligible > 0.0).then(Haste::default);
         for _ in 0..sweeps {
+            if let Some(haste) = &mut haste
+                && haste.hurry(self)
+            {
+                stirred.fill(true);
+            }
             let mut is_done = true;
             for index in 0..self.spots.len() {
                 let movers = self.spots[index].movers;

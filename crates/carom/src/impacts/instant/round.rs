@@ -7,12 +7,15 @@ use crate::impulse::Velocity;
 use crate::math::DVec3;
 
 /// Where no contact bounces, speeds are found up to this share of the rest threshold; and up to the second, while it is sought who
-/// pushes.
+/// pushes. What closes fast need not be known better than to the third of its speed.
 const NEGLIGIBLE: f64 = 1e-4;
 const ROUGH: f64 = 1e-2;
+const OF_THE_FASTEST: f64 = 1e-5;
 
-/// So many sweeps are enough to see who pushes.
-const GLANCE: usize = 20;
+/// So many sweeps are enough to see who pushes; and so many there are at most after that. Where friction slides and sticks by turns
+/// they may not agree by then: what still closes has a round of its own.
+const GLANCE: usize = 8;
+const EFFORT: usize = 100;
 
 impl Instant<'_> {
     /// Finds the impulses of a round in which at least `struck` push; returns which do.
@@ -21,8 +24,12 @@ impl Instant<'_> {
         let mut share = ROUGH;
         loop {
             let round = Cast::of(self, &struck);
-            let negligible = share * self.slowest(&struck);
-            let sweeps = if negligible > 0.0 && share > NEGLIGIBLE { GLANCE } else { usize::MAX };
+            let negligible = self.negligible(&struck, share);
+            let sweeps = match negligible > 0.0 {
+                true if share > NEGLIGIBLE => GLANCE,
+                true => EFFORT,
+                false => usize::MAX,
+            };
             let blows = reflect(&round.movers, &round.spots, Start { blows: &earlier, negligible, sweeps });
             let after = velocities_after(&round.movers, &round.spots, &blows);
             let moved = |(&mover, after): (&usize, &Velocity)| {
@@ -50,15 +57,16 @@ impl Instant<'_> {
         }
     }
 
-    /// What speeds are small against in a round in which these push, m/s: where none bounces, the rest threshold, and not less than that of
-    /// what gravity alone presses. Against a wall, to which nothing presses, the threshold is rounding.
-    fn slowest(&self, struck: &[usize]) -> f64 {
+    /// Up to what speeds need be known in a round in which these push, m/s: where none bounces, to a share of the rest threshold, and not
+    /// less than that of what gravity alone presses. Against a wall, to which nothing presses, the threshold is rounding.
+    fn negligible(&self, struck: &[usize], share: f64) -> f64 {
         let places = || struck.iter().map(|&index| &self.places[index]);
         if places().any(|place| place.spot.contact.restitution > 0.0) {
             return 0.0;
         }
-        let least = places().map(|place| place.rest_speed).fold(f64::MAX, f64::min);
-        least.max(self.law.rest_speed())
+        let slowest = places().map(|place| place.rest_speed).fold(f64::MAX, f64::min);
+        let fastest = places().map(|place| place.closing(&self.movers)).fold(0.0, f64::max);
+        (share * slowest.max(self.law.rest_speed())).max(OF_THE_FASTEST * fastest)
     }
 
     /// Gives the bodies their impulses; returns the movers whose velocities change.
