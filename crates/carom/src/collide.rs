@@ -59,22 +59,52 @@ const FLAT: f64 = 0.995;
 /// Continuous in the poses, but for one case: two cuboids apart, corner to corner or corner to edge, whose edges turn
 /// through parallel. There it may jump between two positive lower bounds; its sign never does.
 pub fn separation(a: &Shape, pose_a: &Pose, b: &Shape, pose_b: &Pose) -> f64 {
+    gap((a, pose_a), (b, pose_b)).separation
+}
+
+/// How far apart two shapes are, and along which direction.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Gap {
+    /// As [`separation`] has it, m.
+    pub separation: f64,
+    /// Unit vector from the first to the second, if one is known along which the two are that far apart: no point of the first is
+    /// higher along it than any of the second less the separation.
+    pub normal: Option<DVec3>,
+}
+
+impl Gap {
+    fn along(separation: f64, normal: DVec3) -> Self {
+        Self { separation, normal: Some(normal) }
+    }
+
+    fn flipped(self) -> Self {
+        Self { normal: self.normal.map(|normal| -normal), ..self }
+    }
+}
+
+/// The [`separation`], and the direction in which it is that.
+pub(crate) fn gap(a: (&Shape, &Pose), b: (&Shape, &Pose)) -> Gap {
     use Placed::{Box, Hull, Plane, Round};
-    let (Some(placed_a), Some(placed_b)) = (Placed::new(a, pose_a), Placed::new(b, pose_b)) else {
-        return parry::separation(a, pose_a, b, pose_b);
+    let (Some(placed_a), Some(placed_b)) = (Placed::new(a.0, a.1), Placed::new(b.0, b.1)) else {
+        return Gap { separation: parry::separation(a.0, a.1, b.0, b.1), normal: None };
     };
     match (&placed_a, &placed_b) {
-        (Round(a), Round(b)) => round::separation(a, b),
-        (Round(round), Box(cuboid)) | (Box(cuboid), Round(round)) => round_box::separation(round, cuboid),
-        (Round(round), Plane(plane)) | (Plane(plane), Round(round)) => plane::round_separation(round, plane),
-        (Box(a), Box(b)) => box_box::separation(a, b),
-        (Box(cuboid), Plane(plane)) | (Plane(plane), Box(cuboid)) => plane::box_separation(cuboid, plane),
-        (Round(round), Hull(hull)) | (Hull(hull), Round(round)) => round_hull::separation(round, hull),
-        (Box(cuboid), Hull(hull)) => hull_hull::separation(&CuboidParts::new(cuboid).polytope(), hull),
-        (Hull(hull), Box(cuboid)) => hull_hull::separation(hull, &CuboidParts::new(cuboid).polytope()),
-        (Hull(a), Hull(b)) => hull_hull::separation(a, b),
-        (Hull(hull), Plane(plane)) | (Plane(plane), Hull(hull)) => plane::hull_separation(hull, plane),
-        (Plane(_), Plane(_)) => f64::INFINITY,
+        (Round(a), Round(b)) => round::gap(a, b),
+        (Round(round), Box(cuboid)) => round_box::gap(round, cuboid),
+        (Box(cuboid), Round(round)) => round_box::gap(round, cuboid).flipped(),
+        (Round(round), Plane(plane)) => Gap::along(plane::round_separation(round, plane), -plane.up),
+        (Plane(plane), Round(round)) => Gap::along(plane::round_separation(round, plane), plane.up),
+        (Box(a), Box(b)) => box_box::gap(a, b),
+        (Box(cuboid), Plane(plane)) => Gap::along(plane::box_separation(cuboid, plane), -plane.up),
+        (Plane(plane), Box(cuboid)) => Gap::along(plane::box_separation(cuboid, plane), plane.up),
+        (Round(round), Hull(hull)) => round_hull::gap(round, hull),
+        (Hull(hull), Round(round)) => round_hull::gap(round, hull).flipped(),
+        (Box(cuboid), Hull(hull)) => hull_hull::gap(&CuboidParts::new(cuboid).polytope(), hull),
+        (Hull(hull), Box(cuboid)) => hull_hull::gap(hull, &CuboidParts::new(cuboid).polytope()),
+        (Hull(a), Hull(b)) => hull_hull::gap(a, b),
+        (Hull(hull), Plane(plane)) => Gap::along(plane::hull_separation(hull, plane), -plane.up),
+        (Plane(plane), Hull(hull)) => Gap::along(plane::hull_separation(hull, plane), plane.up),
+        (Plane(_), Plane(_)) => Gap { separation: f64::INFINITY, normal: None },
     }
 }
 

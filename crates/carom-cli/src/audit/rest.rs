@@ -13,6 +13,10 @@ use carom::math::DVec3;
 use carom::{BodyId, Motion, World};
 use std::collections::{BTreeMap, BTreeSet};
 
+/// A contact's normal is that of when it was last looked at, and each of its bodies may have moved by this share of its size since then:
+/// where surfaces are curved, by this angle (rad).
+const STALE: f64 = 5e-3;
+
 /// A step as seen by what rests in it.
 pub(super) struct Resting<'a> {
     pub(super) world: &'a World,
@@ -125,7 +129,7 @@ impl<'a> Resting<'a> {
         let speed: f64 = [0, 1].map(|side| pair.course(side).pace().0).iter().sum();
         let rolled = speed * time / pair.size();
         let sign = if pair.ids[0] == id { -1.0 } else { 1.0 };
-        let wider = (turned + rolled).min(1.0);
+        let wider = (turned + rolled + 2.0 * STALE).min(1.0);
         cones.extend(touches.iter().map(|touch| (sign * touch.normal, touch.friction + wider + 1e-4)));
     }
 }

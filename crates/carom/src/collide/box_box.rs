@@ -7,7 +7,7 @@ use super::clip::{Block, Overlap, overlap};
 use super::cuboid::{self, Cuboid};
 use super::manifold::{ContactPoint, Manifold};
 use super::segment::{Segment, outside};
-use super::{FLAT, ROUNDING};
+use super::{FLAT, Gap, ROUNDING};
 use crate::math::{DMat3, DVec3};
 use crate::report::Feature;
 
@@ -44,8 +44,9 @@ struct Pair {
 }
 
 /// The widest gap along the fifteen axes.
-pub(crate) fn separation(a: &Cuboid, b: &Cuboid) -> f64 {
-    Pair::new(a, b).best_axis().gap
+pub(crate) fn gap(a: &Cuboid, b: &Cuboid) -> Gap {
+    let axis = Pair::new(a, b).best_axis();
+    Gap::along(axis.gap, a.pose.rotation * axis.normal)
 }
 
 /// The contacts along the axis of the widest gap.

@@ -18,7 +18,7 @@ use super::manifold::{ContactPoint, Manifold};
 use super::polygon;
 use super::polytope::{Farthest, Moved, Polytope};
 use super::segment::Segment;
-use super::{FLAT, ROUNDING};
+use super::{FLAT, Gap, ROUNDING};
 use crate::hull::Plane;
 use crate::math::{DVec3, Pose};
 use crate::report::Feature;
@@ -94,13 +94,16 @@ impl Probes {
 }
 
 /// The distance, or the widest gap along an axis that can separate the two.
-pub(crate) fn separation(a: &Polytope, b: &Polytope) -> f64 {
+pub(crate) fn gap(a: &Polytope, b: &Polytope) -> Gap {
     let pair = Pair::new(a, b);
-    match pair.closest(f64::INFINITY) {
-        Some(closest) if closest.is_apart => closest.gap,
-        Some(closest) => pair.best_axis(&closest).map_or(closest.gap, |axis| axis.gap.max(closest.gap)),
-        None => f64::INFINITY,
-    }
+    let Some(closest) = pair.closest(f64::INFINITY) else {
+        return Gap { separation: f64::INFINITY, normal: None };
+    };
+    let found = (closest.gap, closest.normal);
+    let axis = if closest.is_apart { None } else { pair.best_axis(&closest) };
+    let wider = axis.filter(|axis| axis.gap > closest.gap).map(|axis| (axis.gap, axis.normal));
+    let (separation, normal) = wider.unwrap_or(found);
+    Gap::along(separation, a.pose.rotation * normal)
 }
 
 /// The gap along `normal` (unit length, in the common frame, from `a` to `b`): never more than the distance.

@@ -15,7 +15,7 @@ pub(crate) struct HalfSpace {
     /// A point of the plane.
     point: DVec3,
     /// Unit vector out of the half space.
-    up: DVec3,
+    pub(crate) up: DVec3,
 }
 
 impl HalfSpace {

@@ -1,6 +1,6 @@
 //! Balls and capsules against each other: the closest points of two cores, less the radii.
 
-use super::ROUNDING;
+use super::{Gap, ROUNDING};
 use super::manifold::{ContactPoint, Manifold};
 use super::segment::Segment;
 use crate::math::{DVec3, Pose, any_tangent};
@@ -42,9 +42,11 @@ impl Round {
 }
 
 /// The cores' distance, less both radii.
-pub(crate) fn separation(a: &Round, b: &Round) -> f64 {
+pub(crate) fn gap(a: &Round, b: &Round) -> Gap {
     let (on_a, on_b) = closest(a, b);
-    on_a.distance(on_b) - (a.radius + b.radius)
+    let (offset, distance) = (on_b - on_a, on_a.distance(on_b));
+    let is_apart = distance > ROUNDING * (a.size() + b.size());
+    Gap { separation: distance - (a.radius + b.radius), normal: is_apart.then(|| offset / distance) }
 }
 
 /// One point on the line of the cores' closest points; two where capsules lie side by side.

@@ -5,7 +5,7 @@ use super::manifold::Manifold;
 use super::round::Round;
 use super::round_side::{OverSide, RoundSide};
 use super::segment::{Segment, outside};
-use super::{FLAT, ROUNDING};
+use super::{FLAT, Gap, ROUNDING};
 use crate::math::DVec3;
 use crate::report::Feature;
 
@@ -20,17 +20,9 @@ struct Nearest {
 }
 
 /// The core's distance from the box, less the radius. If the core is inside: by how much it would have to move.
-pub(crate) fn separation(round: &Round, cuboid: &Cuboid) -> f64 {
-    let core = local_core(round, cuboid);
-    let distance = if round.is_ball() {
-        let beyond = core.center.abs() - cuboid.half;
-        beyond.max(DVec3::ZERO).length() + beyond.max_element().min(0.0)
-    } else {
-        let distance = outside(core.at(core.closest_to_box(cuboid.half)), cuboid.half).length();
-        // Where the core meets the box, its closest point may lie on the surface, but for rounding.
-        if distance > rounding(&core, cuboid.half) { distance } else { way_out(&core, cuboid.half).distance }
-    };
-    distance - round.radius
+pub(crate) fn gap(round: &Round, cuboid: &Cuboid) -> Gap {
+    let nearest = nearest(&local_core(round, cuboid), cuboid.half);
+    Gap::along(nearest.distance - round.radius, cuboid.pose.rotation * -nearest.outward)
 }
 
 /// Two points where a capsule's side lies along a face, otherwise one.

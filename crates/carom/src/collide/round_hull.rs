@@ -6,7 +6,7 @@ use super::polytope::Polytope;
 use super::round::Round;
 use super::round_side::{OverSide, RoundSide};
 use super::segment::Segment;
-use super::{FLAT, ROUNDING};
+use super::{FLAT, Gap, ROUNDING};
 use crate::math::DVec3;
 use crate::report::Feature;
 
@@ -23,9 +23,11 @@ struct Nearest {
 }
 
 /// The core's distance from the hull, less the radius. If the core is inside: by how much it would have to move.
-pub(crate) fn separation(round: &Round, hull: &Polytope) -> f64 {
-    let core = local_core(round, hull);
-    nearest(&core, hull, f64::INFINITY).map_or(f64::INFINITY, |nearest| nearest.distance - round.radius)
+pub(crate) fn gap(round: &Round, hull: &Polytope) -> Gap {
+    let nearest = nearest(&local_core(round, hull), hull, f64::INFINITY);
+    nearest.map_or(Gap { separation: f64::INFINITY, normal: None }, |nearest| {
+        Gap::along(nearest.distance - round.radius, hull.pose.rotation * -nearest.outward)
+    })
 }
 
 /// Two points where a capsule's side lies along a side of the hull, otherwise one.

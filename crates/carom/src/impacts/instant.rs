@@ -236,7 +236,11 @@ impl<'a> Instant<'a> {
         let Some(approach) = Approach::of(self.bodies, pair.colliders, self.law) else { return };
         let touching = if pair.rests { margin } else { approach.tolerance() };
         let margin = margin.max(touching);
-        if !pair.rests && pair.least_separation(self.bodies, self.time) > margin {
+        let is_far = || {
+            pair.least_separation(self.bodies, self.time) > margin
+                || pair.least_facing(self.bodies, (self.time, self.time))[0] > margin
+        };
+        if !pair.rests && is_far() {
             return;
         }
         let mut manifolds = Vec::new();

@@ -78,6 +78,18 @@ pub(crate) struct Blow {
 }
 
 impl Blow {
+    /// What a spot gets that is struck alone.
+    fn alone(movers: &[Mover], spot: &Spot) -> Self {
+        let Resolution { fraction, friction_impulse, sticks, .. } =
+            resolve(&spot.side(movers, 0), &spot.side(movers, 1), &spot.contact);
+        Self { normal: fraction, tangent: friction_impulse, sticks }
+    }
+
+    /// Whether it is an impulse at all.
+    pub fn acts(&self) -> bool {
+        self.normal != 0.0 || self.tangent != DVec3::ZERO
+    }
+
     fn impulse(&self, spot: &Spot) -> DVec3 {
         self.normal * spot.contact.normal + self.tangent
     }
@@ -110,9 +122,7 @@ pub(crate) fn reflect(movers: &[Mover], spots: &[Spot], start: Start<'_>) -> Vec
     if let [spot] = spots
         && !spot.pulls
     {
-        let Resolution { fraction, friction_impulse, sticks, .. } =
-            resolve(&spot.side(movers, 0), &spot.side(movers, 1), &spot.contact);
-        return vec![Blow { normal: fraction, tangent: friction_impulse, sticks }];
+        return vec![Blow::alone(movers, spot)];
     }
     let mut round = Round::new(movers, spots, start);
     round.push_along_normals();
@@ -120,6 +130,7 @@ pub(crate) fn reflect(movers: &[Mover], spots: &[Spot], start: Start<'_>) -> Vec
     if spots.iter().any(Spot::is_rough) {
         round.rub();
     }
+    round.settle_alone();
     round.blows
 }
 
@@ -269,8 +280,8 @@ impl<'a> Round<'a> {
 
     /// Lets one spot after the other `act`, which tells how much it has changed a speed (m/s), until nothing changes by more than a
     /// share of the fastest or what is negligible; at most so many times. Spots none of whose bodies has changed since have nothing
-    /// to do. Where something is negligible, sweeps make [haste](Haste).
-    fn sweep(&mut self, (sweeps, agreement): (usize, f64), act: impl Fn(&mut Self, usize) -> f64) {
+    /// to do. Where something is negligible, sweeps make [haste](Haste). Whether nothing changes any more.
+    fn sweep(&mut self, (sweeps, agreement): (usize, f64), act: impl Fn(&mut Self, usize) -> f64) -> bool {
         let limit = (agreement * self.fastest).max(self.negligible);
         let can_stir: Vec<bool> = self.movers.iter().map(Mover::is_movable).collect();
         let (mut stirred, mut stirs) = (vec![true; self.movers.len()], vec![false; self.movers.len()]);
@@ -291,11 +302,12 @@ impl<'a> Round<'a> {
                 }
             }
             if is_done {
-                break;
+                return true;
             }
             std::mem::swap(&mut stirred, &mut stirs);
             stirs.fill(false);
         }
+        false
     }
 
     /// Steps 2 to 5.
@@ -312,6 +324,20 @@ impl<'a> Round<'a> {
             let fraction = -(closing + bounced) / per_unit;
             self.blows.iter_mut().for_each(|blow| blow.normal *= fraction.max(0.0));
             self.velocities = velocities_after(self.movers, self.spots, &self.blows);
+        }
+    }
+
+    /// A spot that alone pushes its bodies gets what the seed has for it, to the last digit.
+    fn settle_alone(&mut self) {
+        let mut pushes = vec![0; self.movers.len()];
+        let acting: Vec<usize> = (0..self.blows.len()).filter(|&index| self.blows[index].acts()).collect();
+        acting.iter().flat_map(|&index| self.spots[index].movers).for_each(|mover| pushes[mover] += 1);
+        for index in acting {
+            let spot = &self.spots[index];
+            let is_alone = |&mover: &usize| pushes[mover] == 1 || !self.movers[mover].is_movable();
+            if !spot.pulls && spot.movers.iter().all(is_alone) {
+                self.blows[index] = Blow::alone(self.movers, spot);
+            }
         }
     }
 

@@ -7,7 +7,7 @@ mod search;
 mod straight;
 
 use crate::bodies::{Bodies, ColliderRow, WORLD_ROW};
-use crate::collide::{self, ContactPoint, Manifold};
+use crate::collide::{self, ContactPoint, Gap, Manifold};
 use crate::flight::{RigidState, fly_center};
 use crate::impacts::foreseen::Foreseen;
 use crate::impacts::seams::leave_out_idle;
@@ -164,8 +164,13 @@ impl<'a> Approach<'a> {
 
     /// Distance of the surfaces at `time` within the step, m.
     pub fn separation(&self, time: f64) -> f64 {
+        self.gap(time).separation
+    }
+
+    /// The same, with the direction in which it is that.
+    pub fn gap(&self, time: f64) -> Gap {
         let (pose_a, pose_b) = (self.pose_at(self.a, time), self.pose_at(self.b, time));
-        collide::separation(&self.a.shape, &pose_a, &self.b.shape, &pose_b)
+        collide::gap((&self.a.shape, &pose_a), (&self.b.shape, &pose_b))
     }
 
     /// All places where the surfaces are within `margin` of each other at `time`, but for those that contacts of other `pairs`

@@ -14,6 +14,7 @@
 mod agenda;
 
 use crate::bodies::{Bodies, WORLD_ROW};
+use crate::collide::Gap;
 use crate::impacts::instant::Instant;
 use crate::impacts::time_of_impact::{Approach, RestLaw, Touch, outlook};
 use crate::report::Impact;
@@ -39,8 +40,8 @@ const WEDGED_TOUCHES: u32 = 1024;
 struct Answer {
     /// Until when it has been asked, s.
     until: f64,
-    /// Its separation when it was asked, if somebody had to look, m.
-    separation: Option<f64>,
+    /// How far apart it was when it was asked, at least, if somebody had to look.
+    gap: Option<Gap>,
     /// How far apart it stays until then, and is then, as far as that is known, m.
     apart: [f64; 2],
     /// When it touches, if it does.
@@ -142,7 +143,7 @@ impl<'a> Events<'a> {
         let pair = &self.pairs[index];
         let is_held = pair.rows.into_iter().any(|row| self.rest.is_held(row));
         let until = if is_held { span.until } else { self.law.step };
-        let mut answer = Answer { until, separation: None, apart: [f64::NEG_INFINITY; 2], instant: None };
+        let mut answer = Answer { until, gap: None, apart: [f64::NEG_INFINITY; 2], instant: None };
         let may_touch = if pair.rests {
             !self.rest.presses(self.bodies, pair, self.law)
                 && self.rest.is_driven(self.bodies, pair, self.law, span)
@@ -158,7 +159,13 @@ impl<'a> Events<'a> {
         {
             let instant = outlook.touch.map(|wait| span.from + wait);
             let apart = [outlook.least, outlook.end];
-            return Answer { until, separation: Some(outlook.separation), apart, instant };
+            let gap = Gap { separation: outlook.separation, normal: None };
+            return Answer { until, gap: Some(gap), apart, instant };
+        }
+        let [apart, least] = pair.least_facing(self.bodies, (span.from, until));
+        if !pair.rests && least > pair.tolerance {
+            answer.gap = Some(Gap { separation: apart, normal: None });
+            return answer;
         }
         let Some(approach) = Approach::of(self.bodies, pair.colliders, self.law) else { return answer };
         if pair.rests {
@@ -166,9 +173,9 @@ impl<'a> Events<'a> {
             answer.instant = approach.next_touch(self.pairs, span.from, until, Some(kept));
             return answer;
         }
-        let separation = approach.separation(span.from);
-        answer.separation = Some(separation);
-        if pair.least_after(self.bodies, (separation, span.from), until) > approach.tolerance() {
+        let gap = approach.gap(span.from);
+        answer.gap = Some(gap);
+        if pair.least_after(self.bodies, (gap, span.from), until) > approach.tolerance() {
             return answer;
         }
         answer.instant = if pair.sensor {
@@ -180,13 +187,13 @@ impl<'a> Events<'a> {
     }
 
     /// Notes what a pair has answered.
-    fn note(&mut self, index: usize, Answer { until, separation, apart, instant }: Answer, span: Span) {
+    fn note(&mut self, index: usize, Answer { until, gap, apart, instant }: Answer, span: Span) {
         let pair = &mut self.pairs[index];
         (pair.now.apart, pair.now.courses) = (apart, pair.rows.map(|row| self.bodies.courses[row]));
         pair.now.stamp += 1;
         (pair.now.asked_from, pair.now.asked_until) = (span.from, until);
-        if let Some(separation) = separation {
-            pair.measured(self.bodies, separation, span.from);
+        if let Some(gap) = gap {
+            pair.faced(self.bodies, gap, span.from);
         }
         if let Some(time) = instant {
             let (key, stamp) = (order(self.bodies, pair.colliders), pair.now.stamp);

@@ -156,11 +156,16 @@ impl Rest {
             if !is_near || !pair.rows.into_iter().any(|row| stirs(bodies, row)) {
                 continue;
             }
+            let [least, _] = pair.least_facing(bodies, (span.from, span.from));
+            if least > margin {
+                pairs[index].measured(bodies, least, span.from);
+                continue;
+            }
             let Some(approach) = Approach::of(bodies, pair.colliders, law) else { continue };
-            let separation = approach.separation(span.from);
+            let gap = approach.gap(span.from);
             let fly = !pairs[index].rows.into_iter().any(|row| self.rows.is_held(row));
-            let rests = separation <= margin && approach.rests(pairs, span.from, fly);
-            pairs[index].measured(bodies, separation, span.from);
+            let rests = gap.separation <= margin && approach.rests(pairs, span.from, fly);
+            pairs[index].faced(bodies, gap, span.from);
             if rests {
                 self.take(bodies, pairs, index, (law, span));
             }

@@ -78,7 +78,7 @@ impl Instant<'_> {
         let mut changed = Vec::new();
         let mut recorded = Vec::new();
         for (&index, blow) in struck.iter().zip(blows) {
-            if blow.normal == 0.0 && blow.tangent == DVec3::ZERO {
+            if !blow.acts() {
                 continue;
             }
             let place = &mut self.places[index];

@@ -15,7 +15,9 @@ impl Round<'_> {
     /// convex. On the way the energy changes by `a·(d·u₀) + ½a²·(d·Kd)` with `d = j − j₀`; the way ends where this would become positive.
     pub(super) fn rub(&mut self) {
         let (smooth, before) = (self.blows.clone(), self.velocities.clone());
-        self.sweep((SWEEPS.min(self.sweeps), AGREEMENT), Self::push_and_rub);
+        if !self.sweep((SWEEPS.min(self.sweeps), AGREEMENT), Self::push_and_rub) {
+            self.sweep((SWEEPS.min(self.sweeps), AGREEMENT), Self::push_within_cone);
+        }
         let (mut first, mut second) = (0.0, 0.0);
         for (index, (spot, blow)) in self.spots.iter().zip(&self.blows).enumerate() {
             let further = blow.impulse(spot) - smooth[index].impulse(spot);
@@ -42,6 +44,25 @@ impl Round<'_> {
             let rubbed = self.rub_one(index);
             pushed.max(rubbed).max(self.push_along_cone(index))
         })
+    }
+
+    /// The push that goes with friction as it is, where that will not agree: no less than what its cone needs; how much it changes the
+    /// speed, m/s.
+    fn push_within_cone(&mut self, index: usize) -> f64 {
+        let (spot, row, blow) = (&self.spots[index], &self.rows[index], self.blows[index]);
+        let per_impulse = row.per_impulse;
+        if per_impulse <= 0.0 || spot.pulls {
+            return self.push_along_normal(index);
+        }
+        let friction = spot.contact.static_friction.max(spot.contact.dynamic_friction);
+        let limit = if blow.sticks { friction } else { fault::friction(spot.contact.dynamic_friction) };
+        let rubbed = blow.tangent.length();
+        let least = if rubbed > 0.0 { rubbed / limit } else { 0.0 };
+        let change = (blow.normal + (row.wanted - self.speed(index)) / per_impulse).max(least) - blow.normal;
+        if change != 0.0 {
+            self.strike(index, change, DVec3::ZERO);
+        }
+        change.abs() * per_impulse
     }
 
     /// The impulse that ends the slip and gives the spot its speed, if the cone allows it. Push and friction by turns would come

@@ -1,12 +1,15 @@
 //! Two colliders that are near each other.
 
+mod facing;
+
 use crate::bodies::{Bodies, ColliderRow};
-use crate::collide::Manifold;
+use crate::collide::{Gap, Manifold};
 use crate::impacts::time_of_impact::tolerance;
 use crate::material::Surface;
 use crate::report::Feature;
 use crate::solver::graph::ContactId;
 use crate::step::broad_phase::ColliderPair;
+use facing::Facing;
 
 /// Two colliders whose boxes overlap.
 pub(crate) struct Pair {
@@ -28,6 +31,7 @@ pub(crate) struct Pair {
     /// A separation that the two had, plus how far their bodies had moved by then (m): they are at least this less
     /// their present [`Pair::path`] apart.
     clearance: f64,
+    facing: Facing,
     /// What happens to it in this step.
     pub now: Present,
     /// Whether `now` may say something.
@@ -109,6 +113,7 @@ impl Pair {
             is_pressed: false,
             is_outdated: false,
             clearance: clearance_of_centers(bodies, a, b),
+            facing: Facing::UNKNOWN,
             now: Present::NOTHING,
             is_changed: false,
             is_watched: false,
@@ -138,6 +143,12 @@ impl Pair {
             Some([least, _]) if time <= self.now.asked_until => least,
             _ => self.clearance - self.path(bodies, time),
         }
+    }
+
+    /// The same at one time within the step, and from then until another, while the bodies keep to their paths. It takes more to tell, and
+    /// tells more: what moves along with the other body, or past it, comes no nearer.
+    pub fn least_facing(&self, bodies: &Bodies, span: (f64, f64)) -> [f64; 2] {
+        self.facing.least(self, bodies, span)
     }
 
     /// How far apart the two stay, and will be at the end, as far as they have been asked, m.
@@ -170,14 +181,23 @@ impl Pair {
         if self.rests { !self.is_pressed } else { self.could_meet(limits, margin) }
     }
 
-    /// The same, if the two are `separation` apart (m) at an earlier time.
-    pub fn least_after(&self, bodies: &Bodies, (separation, earlier): (f64, f64), time: f64) -> f64 {
-        separation + self.path(bodies, earlier) - self.path(bodies, time)
+    /// A lower bound of the separation until `time`, m, if the two have this gap at an earlier time.
+    pub fn least_after(&self, bodies: &Bodies, (gap, earlier): (Gap, f64), time: f64) -> f64 {
+        let [_, facing] = Facing::of(self, bodies, (gap, earlier)).least(self, bodies, (earlier, time));
+        facing.max(gap.separation + self.path(bodies, earlier) - self.path(bodies, time))
     }
 
     /// The two are `separation` apart at `time`.
     pub fn measured(&mut self, bodies: &Bodies, separation: f64, time: f64) {
         self.clearance = separation + self.path(bodies, time);
+    }
+
+    /// The same, with the direction if that is new.
+    pub fn faced(&mut self, bodies: &Bodies, gap: Gap, time: f64) {
+        self.measured(bodies, gap.separation, time);
+        if gap.normal.is_some() {
+            self.facing = Facing::of(self, bodies, (gap, time));
+        }
     }
 }
 
