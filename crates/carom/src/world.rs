@@ -39,7 +39,7 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             gravity: DVec3::new(0.0, -9.81, 0.0),
-            substeps: 4,
+            substeps: 2,
             ledger: false,
             instruction_set: InstructionSet::default(),
             threads: 1,

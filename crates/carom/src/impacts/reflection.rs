@@ -117,8 +117,50 @@ impl Spot {
     }
 }
 
-/// Impulses for all `spots` of a round. The first of them may have got some already.
+/// Impulses for all `spots` of a round. The first of them may have got some already. Spots that no body connects which can be moved
+/// have nothing to do with each other, and none pays for what another gains.
 pub(crate) fn reflect(movers: &[Mover], spots: &[Spot], start: Start<'_>) -> Vec<Blow> {
+    let groups = connected(movers, spots);
+    if groups.len() <= 1 {
+        return reflect_connected(movers, spots, start);
+    }
+    let mut blows = vec![Blow::default(); spots.len()];
+    for group in groups {
+        let own: Vec<Spot> = group.iter().map(|&index| spots[index]).collect();
+        let earlier: Vec<Blow> = group.iter().filter_map(|&index| start.blows.get(index).copied()).collect();
+        let found = reflect_connected(movers, &own, Start { blows: &earlier, ..start });
+        group.into_iter().zip(found).for_each(|(index, blow)| blows[index] = blow);
+    }
+    blows
+}
+
+/// The spots that bodies connect which can be moved, in their order.
+fn connected(movers: &[Mover], spots: &[Spot]) -> Vec<Vec<usize>> {
+    let mut group_of: Vec<Option<usize>> = vec![None; movers.len()];
+    let mut groups: Vec<Vec<usize>> = Vec::new();
+    for (index, spot) in spots.iter().enumerate() {
+        let movable = || spot.movers.into_iter().filter(|&mover| movers[mover].is_movable());
+        let mut known: Vec<usize> = movable().filter_map(|mover| group_of[mover]).collect();
+        known.sort_unstable();
+        known.dedup();
+        let group = known.first().copied().unwrap_or_else(|| {
+            groups.push(Vec::new());
+            groups.len() - 1
+        });
+        groups[group].push(index);
+        movable().for_each(|mover| group_of[mover] = Some(group));
+        for other in known.into_iter().skip(1) {
+            let joining = std::mem::take(&mut groups[other]);
+            groups[group].extend(joining);
+            groups[group].sort_unstable();
+            group_of.iter_mut().filter(|of| **of == Some(other)).for_each(|of| *of = Some(group));
+        }
+    }
+    groups.retain(|group| !group.is_empty());
+    groups
+}
+
+fn reflect_connected(movers: &[Mover], spots: &[Spot], start: Start<'_>) -> Vec<Blow> {
     if let [spot] = spots
         && !spot.pulls
     {
@@ -327,17 +369,13 @@ impl<'a> Round<'a> {
         }
     }
 
-    /// A spot that alone pushes its bodies gets what the seed has for it, to the last digit.
+    /// A spot that pushes alone gets what the seed has for it, to the last digit.
     fn settle_alone(&mut self) {
-        let mut pushes = vec![0; self.movers.len()];
-        let acting: Vec<usize> = (0..self.blows.len()).filter(|&index| self.blows[index].acts()).collect();
-        acting.iter().flat_map(|&index| self.spots[index].movers).for_each(|mover| pushes[mover] += 1);
-        for index in acting {
-            let spot = &self.spots[index];
-            let is_alone = |&mover: &usize| pushes[mover] == 1 || !self.movers[mover].is_movable();
-            if !spot.pulls && spot.movers.iter().all(is_alone) {
-                self.blows[index] = Blow::alone(self.movers, spot);
-            }
+        let mut pushing = (0..self.blows.len()).filter(|&index| self.blows[index].acts());
+        if let (Some(index), None) = (pushing.next(), pushing.next())
+            && !self.spots[index].pulls
+        {
+            self.blows[index] = Blow::alone(self.movers, &self.spots[index]);
         }
     }
 
