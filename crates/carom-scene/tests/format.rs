@@ -49,7 +49,7 @@ fn shape(shape: &str) -> Shape {
 fn the_example_reads_as_it_is_written() {
     let scene = scene(EXAMPLE);
     assert_eq!((scene.name.as_str(), scene.dt, scene.sleeping), ("drop", 0.016666667, false));
-    assert_eq!(scene.settings, Settings::default());
+    assert_eq!(scene.settings, Settings { substeps: 4, ..Settings::default() });
     assert!(scene.notes.is_empty());
     let [floor, ball] = &scene.bodies[..] else { panic!("two bodies") };
     assert_eq!((floor.name.as_str(), floor.motion), ("floor", Motion::Fixed));

@@ -72,7 +72,7 @@ fn a_body_from_under_which_a_table_is_pulled_falls_from_the_next_substep_on() {
     world.body_mut(table).unwrap().set_linear_velocity(DVec3::X * 800.0).unwrap();
     run(&mut world, 2);
     let speed = -world[body].linear_velocity().y;
-    assert!(f64::from(speed) > 1.7 * GRAVITY * STEP, "{speed} m/s");
+    assert!(f64::from(speed) > 1.4 * GRAVITY * STEP, "{speed} m/s");
 }
 
 #[test]
@@ -170,7 +170,7 @@ fn a_box_that_overlaps_a_wall_is_pushed_out_though_it_parts_slowly() {
     let body = world.add(body);
     run(&mut world, 60);
     let overlap = -world[body].position().x;
-    assert!(overlap < 2e-5, "{overlap} m of overlap are left after a second");
+    assert!(overlap < 4e-5, "{overlap} m of overlap are left after a second");
 }
 
 /// Piles like this one went on shaking: their solver overshot, and their boxes sank into each other and into the walls.

@@ -15,6 +15,8 @@
 //! of its upper side would do. The end is behind the floor. So a contact is left out as well if another side of `Y` faces more
 //! the way of the contact with `Z`, and the shape is beyond that side: a moment later that side is the shortest way out.
 //!
+//! What comes out of that plane faster than the rest threshold is struck, wherever it is by then.
+//!
 //! The shape may be that of a body that slides over others, or the ground under a body of several colliders.
 
 use super::time_of_impact::Approach;
@@ -180,6 +182,7 @@ impl Seam<'_> {
             let depth = (plane.place - place).dot(plane.normal);
             if depth > approach.flush() - plane.separation.min(0.0)
                 || rises(own, place + depth * plane.normal, plane.normal, approach.flush())
+                || self.comes_out(own, other, (place, plane))
             {
                 continue;
             }
@@ -200,6 +203,16 @@ impl Seam<'_> {
             }
         }
         !self.has_better_side(own, shared, planes, (place, normal))
+    }
+
+    /// Whether a collider comes out at a place of the plane of a contact with another one, faster than the rest threshold.
+    fn comes_out(&self, own: &ColliderRow, other: &ColliderRow, (place, plane): (DVec3, &Plane)) -> bool {
+        let velocity = |collider: &ColliderRow| {
+            let (center, velocity) = self.approach.motion(collider, self.time);
+            velocity.at(place + self.approach.origin - center)
+        };
+        own.row != other.row
+            && (velocity(own) - velocity(other)).dot(plane.normal) > self.approach.law.rest_speed()
     }
 
     /// Whether a side of `own` that faces more the way of another collider's contact than `normal` has `shared` beyond it.

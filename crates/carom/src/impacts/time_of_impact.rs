@@ -249,11 +249,14 @@ impl<'a> Approach<'a> {
 
     /// Both bodies' centres and velocities at `time`.
     fn motions(&self, time: f64) -> [(DVec3, Velocity); 2] {
-        [self.a, self.b].map(|collider| {
-            let state = self.state_at(collider, time);
-            let angular = self.bodies.constants[collider.row].angular_velocity(&state);
-            (state.position, Velocity { linear: state.velocity, angular })
-        })
+        [self.a, self.b].map(|collider| self.motion(collider, time))
+    }
+
+    /// A collider's centre of mass and velocity at `time`.
+    pub(super) fn motion(&self, collider: &ColliderRow, time: f64) -> (DVec3, Velocity) {
+        let state = self.state_at(collider, time);
+        let angular = self.bodies.constants[collider.row].angular_velocity(&state);
+        (state.position, Velocity { linear: state.velocity, angular })
     }
 
     /// The least gap at `time` of the points that close faster than they may, m: as [`Self::touch`], but up to a `margin`.

@@ -20,6 +20,8 @@ pub(crate) struct Rows {
     pub displacements: Vec<Row>,
     /// Poses that bodies had when their contacts were last looked at.
     pub anchors: Vec<Pose>,
+    /// What contacts gave to it in the last substep in which it had any, laid out like velocities.
+    pub given: Vec<Row>,
     /// Where the body has not gone far from, m, and for how long, s.
     haunts: Vec<(DVec3, f64)>,
     /// How many contacts the body has.
@@ -42,6 +44,7 @@ impl Rows {
             drifts: Vec::new(),
             displacements: Vec::new(),
             anchors: Vec::new(),
+            given: Vec::new(),
             haunts: Vec::new(),
             contacts: Vec::new(),
             held: Vec::new(),
@@ -58,6 +61,7 @@ impl Rows {
             self.drifts.resize(count, UNTURNED);
             self.displacements.resize(count, Row::ZERO);
             self.anchors.resize(count, Pose::IDENTITY);
+            self.given.resize(count, Row::ZERO);
             self.haunts.resize(count, (DVec3::NAN, 0.0));
             self.contacts.resize(count, 0);
         }
@@ -70,6 +74,7 @@ impl Rows {
             self.drifts.swap_remove(row);
             self.displacements.swap_remove(row);
             self.anchors.swap_remove(row);
+            self.given.swap_remove(row);
             self.haunts.swap_remove(row);
             self.contacts.swap_remove(row);
             self.held_is_stale = true;

@@ -96,8 +96,7 @@ fn a_ball_rolls_against_a_ramp_at_the_right_place() {
         }
         let truth = (2.0 - radius * (0.5 * angle).tan()) / speed;
         let normal = DVec3::new(-angle.sin(), angle.cos(), 0.0);
-        // On one mesh the ball rests already, and as nothing bounces, contacts stop it.
-        assert_eq!(hits.len(), usize::from(!matches!(made, Made::Mesh)), "{made:?}: {hits:?}");
+        assert_eq!(hits.len(), 1, "{made:?}: {hits:?}");
         for (time, struck) in hits {
             assert!((time - truth).abs() < 1e-5, "{made:?}: {time} for {truth}");
             assert!((struck - normal).length() < 1e-5, "{made:?}: {struck} for {normal}");
@@ -105,9 +104,7 @@ fn a_ball_rolls_against_a_ramp_at_the_right_place() {
         let left = 1.0 - truth;
         let along = speed * angle.cos() - G * angle.sin() * left;
         let error = (velocity(&world[id]) - DVec3::new(angle.cos(), angle.sin(), 0.0) * along).length();
-        // Contacts do so at the end of the substep, in which gravity goes on.
-        let late = if matches!(made, Made::Mesh) { G * angle.sin() * STEP / 4.0 } else { 0.0 };
-        assert!(error < 2e-3 + late, "{made:?}: {:?} for {along} along the ramp", world[id]);
+        assert!(error < 2e-3, "{made:?}: {:?} for {along} along the ramp", world[id]);
     }
 }
 
@@ -115,7 +112,7 @@ fn a_ball_rolls_against_a_ramp_at_the_right_place() {
 fn over_a_ridge_a_fast_ball_flies_and_a_slow_one_rolls_down() {
     let (radius, angle) = (0.25, -0.4_f64);
     for made in MADE {
-        // Fast: v² > g·r, so that it leaves the ridge; the contact holds it to the end of the substep, that is for 1 cm of fall.
+        // Fast: v² > g·r, so that it leaves the ridge; the contact holds it to the end of the substep, that is for 2 cm of fall.
         let mut world = world_of(ground(made, angle, coat(0.0, 0.0)));
         let ball = Body::dynamic().with(Shape::sphere(radius)).at(-1.0, radius, 0.1);
         let id = world.add(coated(ball.moving(4.0, 0.0, 0.0), coat(0.0, 0.0)));
@@ -124,7 +121,7 @@ fn over_a_ridge_a_fast_ball_flies_and_a_slow_one_rolls_down() {
         }
         let fall = 0.25_f64;
         let truth = DVec3::new(1.0, radius - 0.5 * G * fall * fall, 0.1);
-        assert!((world[id].position() - truth).length() < 1.2e-2, "{made:?}: {:?} for {truth}", world[id]);
+        assert!((world[id].position() - truth).length() < 2.2e-2, "{made:?}: {:?} for {truth}", world[id]);
 
         // Slow: it rolls around the ridge, and no energy is lost.
         let mut world = world_of(ground(made, angle, coat(0.0, 0.0)));

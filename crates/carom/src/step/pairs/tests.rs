@@ -53,7 +53,7 @@ fn look(world: &mut World) {
     begin_flight(&mut world.bodies, world.settings.gravity, STEP);
     world.broad_phase.find_pairs(&world.bodies, STEP);
     let parted = world.pairs.update(&world.bodies, &mut world.broad_phase);
-    let law = RestLaw { gravity: world.settings.gravity, substep: 0.25 * STEP, step: STEP };
+    let law = RestLaw { gravity: world.settings.gravity, substep: 0.5 * STEP, step: STEP };
     world.rest.begin_step(&mut world.bodies, (&mut world.pairs, parted), law);
     world.pairs.begin_watch(&world.bodies, (STEP, 1e-3));
 }

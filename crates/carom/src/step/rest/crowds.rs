@@ -122,7 +122,7 @@ mod tests {
     fn nothing_in_a_crowd_that_has_come_to_rest_is_held_by_what_it_does_not_touch() {
         for seed in 0..2 {
             let mut world = heap(&mut Random(41 + seed));
-            let law = RestLaw { gravity: world.settings.gravity, substep: 0.25 * STEP, step: STEP };
+            let law = RestLaw { gravity: world.settings.gravity, substep: 0.5 * STEP, step: STEP };
             for step in 0..300 {
                 world.step_validated(STEP);
                 if step < 240 {
@@ -142,7 +142,7 @@ mod tests {
                     if is_pressed && is_slow {
                         let approach = Approach::of(bodies, pair.colliders, law).expect("both are there");
                         let gap = approach.separation(STEP);
-                        assert!(gap < 2e-4, "held over a gap of {gap} m in step {step}, heap {seed}");
+                        assert!(gap < 4e-4, "held over a gap of {gap} m in step {step}, heap {seed}");
                     }
                 }
             }

@@ -18,7 +18,7 @@ use crate::step::profile::{self, Phase};
 /// Speeds in units of what gravity does in a substep. Velocities agree when a sweep changes them by no more than the first; where
 /// they are solved directly, when nothing is further off than the second.
 const AGREEMENT: f64 = 1e-3;
-const EXACTNESS: f64 = 1e-5;
+const EXACTNESS: f64 = 5e-6;
 
 /// An island whose bodies move no faster than this against each other is about to rest, and worth the effort of both; in one
 /// where they move faster than the second, impulses that act again must not do work.
@@ -67,14 +67,18 @@ impl Rest {
         let rows = self.rows.held().to_vec();
         let gains: Vec<[DVec3; 2]> = rows.iter().map(|&row| self.gain(bodies, row, (law, substep))).collect();
         let gravity = law.gravity.length() * substep;
+        let unpushed: Vec<Row> = rows.iter().map(|&row| self.rows.velocities[row]).collect();
         self.graph.begin(&mut self.rows.velocities, [law.contact_margin(), LIVELY * gravity], substep);
         let persisting: Vec<Row> = rows.iter().map(|&row| self.rows.velocities[row]).collect();
         self.solve(bodies, gravity);
 
         let mut is_steady = vec![true; bodies.states.len()];
-        for ((&row, gain), warm) in rows.iter().zip(&gains).zip(persisting) {
-            let [linear, angular] = difference(&self.rows.velocities[row], &warm);
-            let sudden = linear.length().max(angular.length() * bodies.grains[row]);
+        for ((&row, gain), (warm, unpushed)) in rows.iter().zip(&gains).zip(persisting.iter().zip(unpushed)) {
+            let size = |[linear, angular]: [DVec3; 2]| linear.length().max(angular.length() * bodies.grains[row]);
+            let after = self.rows.velocities[row];
+            let given = Row(std::array::from_fn(|k| if k < 6 { after.0[k] - unpushed.0[k] } else { 0.0 }));
+            let sudden = size(difference(&after, warm)).min(size(difference(&given, &self.rows.given[row])));
+            self.rows.given[row] = given;
             is_steady[row] = sudden <= STEADY * gain[0].length() || !is_free(bodies, row);
         }
         self.graph.in_whole_islands(&mut is_steady);
