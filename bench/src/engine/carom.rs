@@ -10,7 +10,7 @@ use carom::{BodyId, Settings, World};
 pub const ENTRY: Entry = Entry {
     name: "carom",
     version: "carom, this checkout",
-    settings: "Settings::default(): 4 substeps",
+    settings: "Settings::default(): 2 substeps",
     max_threads: u32::MAX as usize,
     tells_phases: cfg!(feature = "profile"),
     start,

@@ -3,7 +3,7 @@
 //! ```text
 //! begin      clocks to zero; gravity and forces become each body's influence
 //! find       which colliders could touch while their bodies fly              step/broad_phase.rs, pairs.rs
-//! substep    four times, unless the settings say otherwise
+//! substep    twice, unless the settings say otherwise
 //!     hold       what rests: contacts found, impulses solved, paths given    step/rest.rs → solver/
 //!     happen     touch after touch in time                                   step/events.rs
 //!                    when do they touch?         impacts/time_of_impact.rs

@@ -182,12 +182,12 @@ const THREADS: [u32; 3] = [1, 2, 4];
 
 /// The hashes of states and events of [pile, mesh, gas, cradle, stack, crowd].
 const EXPECTED: [[u64; 2]; 6] = [
-    [0x5769_e8dd_aa52_3931, 0xabb4_72a5_4502_297a],
-    [0xdec3_78dc_3195_e15f, 0xcfd1_cbbe_afa8_4ebb],
+    [0xb28b_526b_bb33_2ab0, 0x530b_8cfa_6693_0860],
+    [0x8667_3ce4_c7cc_8be0, 0xaf73_e82b_4366_9c0d],
     [0xb7c9_a597_8de9_22c8, 0x12d9_d339_e94d_7830],
-    [0xc1e1_fd04_731e_91a0, 0xf840_eec8_201f_e158],
-    [0x079c_3c0e_2d1a_9929, 0x1222_2d2a_3de1_8908],
-    [0x1238_c288_c3f3_2bc9, 0x0835_8819_ed60_b60b],
+    [0x495a_c80e_1b79_9fde, 0x046b_b65b_a085_2bf1],
+    [0x17f1_40d1_ee1b_c83e, 0x0125_dda8_602f_8478],
+    [0xb1d1_3f88_660c_1f54, 0x430f_89c2_e395_ebd0],
 ];
 
 #[test]

@@ -1,8 +1,8 @@
 //! Balls and capsules against each other: the closest points of two cores, less the radii.
 
-use super::{Gap, ROUNDING};
 use super::manifold::{ContactPoint, Manifold};
 use super::segment::Segment;
+use super::{Gap, ROUNDING};
 use crate::math::{DVec3, Pose, any_tangent};
 use crate::report::Feature;
 

@@ -20,12 +20,16 @@
 //! scaling are ours.
 
 mod friction;
+mod groups;
 mod haste;
+mod row;
 
 use crate::fault;
 use crate::impulse::{Contact, Resolution, Side, Velocity, resolve};
-use crate::math::{DMat3, DVec3, any_tangent};
+use crate::math::{DMat3, DVec3};
+use groups::connected;
 use haste::Haste;
+use row::Row;
 
 /// Sweeps over all contacts of a round, which end when they change no speed by more than this share of the fastest.
 const SWEEPS: usize = 400;
@@ -134,32 +138,6 @@ pub(crate) fn reflect(movers: &[Mover], spots: &[Spot], start: Start<'_>) -> Vec
     blows
 }
 
-/// The spots that bodies connect which can be moved, in their order.
-fn connected(movers: &[Mover], spots: &[Spot]) -> Vec<Vec<usize>> {
-    let mut group_of: Vec<Option<usize>> = vec![None; movers.len()];
-    let mut groups: Vec<Vec<usize>> = Vec::new();
-    for (index, spot) in spots.iter().enumerate() {
-        let movable = || spot.movers.into_iter().filter(|&mover| movers[mover].is_movable());
-        let mut known: Vec<usize> = movable().filter_map(|mover| group_of[mover]).collect();
-        known.sort_unstable();
-        known.dedup();
-        let group = known.first().copied().unwrap_or_else(|| {
-            groups.push(Vec::new());
-            groups.len() - 1
-        });
-        groups[group].push(index);
-        movable().for_each(|mover| group_of[mover] = Some(group));
-        for other in known.into_iter().skip(1) {
-            let joining = std::mem::take(&mut groups[other]);
-            groups[group].extend(joining);
-            groups[group].sort_unstable();
-            group_of.iter_mut().filter(|of| **of == Some(other)).for_each(|of| *of = Some(group));
-        }
-    }
-    groups.retain(|group| !group.is_empty());
-    groups
-}
-
 fn reflect_connected(movers: &[Mover], spots: &[Spot], start: Start<'_>) -> Vec<Blow> {
     if let [spot] = spots
         && !spot.pulls
@@ -206,59 +184,6 @@ struct Round<'a> {
     fastest: f64,
     negligible: f64,
     sweeps: usize,
-}
-
-/// What a spot's impulses do to its own point and to its two bodies.
-struct Row {
-    /// Speed along the normal before, and the least afterwards, m/s.
-    before: f64,
-    wanted: f64,
-    /// What a unit impulse along the normal changes that speed by, 1/kg.
-    per_impulse: f64,
-    /// What it changes the two bodies' velocities by, and the moments of the normal that a spin is measured with.
-    gains: [Velocity; 2],
-    moments: [DVec3; 2],
-    /// K: from an impulse at the point to the change of velocity there, 1/kg.
-    response: DMat3,
-    /// K⁻¹, where there is one, kg.
-    stiffness: Option<DMat3>,
-    /// The most that an impulse across the normal changes the velocity across it, 1/kg.
-    yielding: f64,
-}
-
-impl Row {
-    fn new(movers: &[Mover], spot: &Spot) -> Self {
-        let normal = spot.contact.normal;
-        let (a, b) = (spot.side(movers, 0), spot.side(movers, 1));
-        let response = a.inverse_effective_mass() + b.inverse_effective_mass();
-        let first = any_tangent(normal);
-        let second = normal.cross(first);
-        let (bend_first, bend_second) = (response * first, response * second);
-        let mean = 0.5 * (first.dot(bend_first) + second.dot(bend_second));
-        let half = 0.5 * (first.dot(bend_first) - second.dot(bend_second));
-        let before = (b.velocity.at(b.arm) - a.velocity.at(a.arm)).dot(normal);
-        let moments = [-a.arm.cross(normal), b.arm.cross(normal)];
-        Row {
-            before,
-            wanted: spot.wanted(before),
-            per_impulse: normal.dot(response * normal),
-            gains: [
-                Velocity { linear: -normal / a.mass, angular: a.inverse_inertia * moments[0] },
-                Velocity { linear: normal / b.mass, angular: b.inverse_inertia * moments[1] },
-            ],
-            moments,
-            response,
-            stiffness: inverse_of(&response),
-            yielding: mean + half.hypot(first.dot(bend_second)),
-        }
-    }
-}
-
-/// The inverse of a matrix that has one: of a body that cannot be moved along some axis has none.
-fn inverse_of(response: &DMat3) -> Option<DMat3> {
-    const SINGULAR: f64 = 1e-9;
-    let size = response.x_axis.x + response.y_axis.y + response.z_axis.z;
-    (response.determinant() > SINGULAR * size.powi(3)).then(|| response.inverse())
 }
 
 impl<'a> Round<'a> {

@@ -39,11 +39,12 @@ impl Haste {
         for ((blow, before), row) in round.blows.iter_mut().zip(&mut self.before).zip(&round.rows) {
             before.normal = blow.normal - before.normal;
             before.tangent = blow.tangent - before.tangent;
-            changed += row.per_impulse * before.normal.powi(2) + row.yielding * before.tangent.length_squared();
+            changed +=
+                row.per_impulse * before.normal.powi(2) + row.yielding * before.tangent.length_squared();
         }
         let changes = &self.before;
         let share = changed / std::mem::replace(&mut self.changed, changed);
-        if !(share <= 1.0) {
+        if share > 1.0 || share.is_nan() {
             self.direction.clone_from(changes);
             return false;
         }

@@ -74,7 +74,8 @@ impl Rest {
 
         let mut is_steady = vec![true; bodies.states.len()];
         for ((&row, gain), (warm, unpushed)) in rows.iter().zip(&gains).zip(persisting.iter().zip(unpushed)) {
-            let size = |[linear, angular]: [DVec3; 2]| linear.length().max(angular.length() * bodies.grains[row]);
+            let size =
+                |[linear, angular]: [DVec3; 2]| linear.length().max(angular.length() * bodies.grains[row]);
             let after = self.rows.velocities[row];
             let given = Row(std::array::from_fn(|k| if k < 6 { after.0[k] - unpushed.0[k] } else { 0.0 }));
             let sudden = size(difference(&after, warm)).min(size(difference(&given, &self.rows.given[row])));
