@@ -1,11 +1,11 @@
 //! Pairs against a search of all colliders, while bodies fly, come, go and are meddled with.
 
 use super::watch::merge;
-use super::{Entry, Pairs};
+use super::{Entry, Pair, Pairs};
 use crate::bodies::{Bodies, ColliderRow, WORLD_ROW};
 use crate::collide::separation;
 use crate::filter::{Accepts, Filter, Groups};
-use crate::impacts::time_of_impact::RestLaw;
+use crate::impacts::time_of_impact::{Approach, RestLaw};
 use crate::math::DVec3;
 use crate::solver::tests::Random;
 use crate::step::motion::begin_flight;
@@ -32,6 +32,7 @@ impl Pairs {
             let entry = Entry { colliders: pair.colliders, index: index as u32 };
             let is_listed = self.watch.has(entry);
             assert_eq!(pair.is_watched, is_listed, "{:?} is watched", pair.colliders);
+            face(bodies, pair);
             if pair.rests {
                 assert!(pair.is_watched || pair.is_pressed, "{:?} rests and is not watched", pair.colliders);
             } else if !pair.is_watched {
@@ -39,6 +40,20 @@ impl Pairs {
                 assert!(apart > self.watch.margin(), "{:?}: {apart} m apart and not watched", pair.colliders);
             }
         }
+    }
+}
+
+/// Panics if the direction in which a pair was apart promises more than its bodies' paths keep.
+fn face(bodies: &Bodies, pair: &Pair) {
+    let law = RestLaw { gravity: DVec3::ZERO, substep: 0.5 * STEP, step: STEP };
+    let approach = Approach::of(bodies, pair.colliders, law).expect("a pair's colliders are there");
+    let [now, least] = pair.least_facing(bodies, (0.0, STEP));
+    // Two boxes may be further apart than the widest gap along their axes.
+    let are_boxes = approach.colliders().iter().all(|it| matches!(it.shape, Shape::Cuboid { .. }));
+    for (part, bound) in [(0.0, now), (0.25, least), (0.5, least), (0.75, least), (1.0, least)] {
+        let apart = approach.separation(part * STEP);
+        let holds = if are_boxes { bound <= 1e-8 || apart > 0.0 } else { bound <= apart + 1e-8 };
+        assert!(holds, "{:?}: {apart} m apart after {part} of a step, not {bound}", pair.colliders);
     }
 }
 
