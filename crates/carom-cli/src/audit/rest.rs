@@ -13,10 +13,6 @@ use carom::math::DVec3;
 use carom::{BodyId, Motion, World};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A contact's normal is that of when it was last looked at, and each of its bodies may have moved by this share of its size since then:
-/// where surfaces are curved, by this angle (rad).
-const STALE: f64 = 5e-3;
-
 /// A step as seen by what rests in it.
 pub(super) struct Resting<'a> {
     pub(super) world: &'a World,
@@ -121,15 +117,20 @@ impl<'a> Resting<'a> {
     pub(super) fn add_cones(&self, pair: &Pair<'_>, id: BodyId, span: (f64, f64), cones: &mut Vec<Cone>) {
         let mut touches: Vec<Touch> = Vec::new();
         let reach = self.reach(pair);
-        pair.touches(span.0, reach, &mut touches);
-        pair.touches(span.1, reach, &mut touches);
+        // Contacts are looked at between substeps: what rolls over an edge then touches what it does not touch before or after.
+        let start = ((span.0 - self.span.0) / self.substep).floor() as u32;
+        let between = (start + 1..).map(|number| self.span.0 + f64::from(number) * self.substep);
+        let between = between.take_while(|&time| time < span.1 - 1e-9).filter(|&time| time > span.0);
+        for time in [span.0, span.1].into_iter().chain(between) {
+            pair.touches(time, reach, &mut touches);
+        }
         // What contacts give for a substep, they may give at its start.
         let time = (span.1 - span.0).max(self.substep);
         let turned: f64 = [0, 1].map(|side| pair.course(side).pace().1).iter().sum::<f64>() * time;
         let speed: f64 = [0, 1].map(|side| pair.course(side).pace().0).iter().sum();
         let rolled = speed * time / pair.size();
         let sign = if pair.ids[0] == id { -1.0 } else { 1.0 };
-        let wider = (turned + rolled + 2.0 * STALE).min(1.0);
+        let wider = (turned + rolled).min(1.0);
         cones.extend(touches.iter().map(|touch| (sign * touch.normal, touch.friction + wider + 1e-4)));
     }
 }
