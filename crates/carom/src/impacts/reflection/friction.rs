@@ -12,7 +12,7 @@ impl Round<'_> {
     /// Adds friction, as much of it as takes energy away and gives none.
     ///
     /// From the impulses `j₀` without friction to those with it, `j`, all between them keep to Newton's rule and to the cones, which are
-    /// convex. On the way the energy changes by `a·(d·u₀) + ½a²·(d·Kd)` with `d = j − j₀`; the way ends where this would become positive.
+    /// convex. Where sweeps do not agree, the pushes are found once more with friction as it is by then. On the way the energy changes by `a·(d·u₀) + ½a²·(d·Kd)` with `d = j − j₀`; the way ends where this would become positive.
     pub(super) fn rub(&mut self) {
         let (smooth, before) = (self.blows.clone(), self.velocities.clone());
         if !self.sweep((SWEEPS.min(self.sweeps), AGREEMENT), Self::push_and_rub) {
@@ -57,7 +57,7 @@ impl Round<'_> {
         let friction = spot.contact.static_friction.max(spot.contact.dynamic_friction);
         let limit = if blow.sticks { friction } else { fault::friction(spot.contact.dynamic_friction) };
         let rubbed = blow.tangent.length();
-        let least = if rubbed > 0.0 { rubbed / limit } else { 0.0 };
+        let least = if limit > 0.0 { rubbed / limit } else { 0.0 };
         let change = (blow.normal + (row.wanted - self.speed(index)) / per_impulse).max(least) - blow.normal;
         if change != 0.0 {
             self.strike(index, change, DVec3::ZERO);

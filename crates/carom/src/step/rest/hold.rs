@@ -31,8 +31,9 @@ const SWEEPS: u32 = 2;
 const IN_MOTION: u32 = 12;
 const BUDGET: u32 = 40_000;
 
-/// Where the sweeps change a body's velocity by less than this share of what gravity does, the forces on it persist: in an island
-/// all of them or none, since what acts all the time on one body cannot act at the start on the other.
+/// Where the sweeps change a body's velocity by less than this share of what gravity does, or contacts give it what they gave in the
+/// substep before, be they others or not, the forces on it persist: in an island all of them or none, since what acts all the time on
+/// one body cannot act at the start on the other.
 const STEADY: f64 = 0.05;
 
 impl Rest {
