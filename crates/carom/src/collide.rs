@@ -67,8 +67,8 @@ pub fn separation(a: &Shape, pose_a: &Pose, b: &Shape, pose_b: &Pose) -> f64 {
 pub(crate) struct Gap {
     /// As [`separation`] has it, m.
     pub separation: f64,
-    /// Unit vector from the first to the second, if one is known along which the two are that far apart: no point of the first is
-    /// higher along it than any of the second less the separation.
+    /// Unit vector from the first to the second, if one is known. Where the two are apart, no point of the first is higher along it than
+    /// any of the second less the separation.
     pub normal: Option<DVec3>,
 }
 

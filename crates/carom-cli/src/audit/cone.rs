@@ -161,7 +161,7 @@ mod tests {
         assert!((left - 0.4).abs() < 1e-12, "{left}");
     }
 
-    /// Four hundred passes left over half of the first, and a thousandth of many others.
+    /// Four hundred passes left nine tenths of the first.
     #[test]
     fn cones_that_nearly_face_each_other_explain_what_lies_between_them() {
         let facing = [(DVec3::X, 0.0), (DVec3::new(-1.0, 0.01, 0.0).normalize(), 0.0)];

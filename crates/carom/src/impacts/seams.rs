@@ -15,7 +15,7 @@
 //! of its upper side would do. The end is behind the floor. So a contact is left out as well if another side of `Y` faces more
 //! the way of the contact with `Z`, and the shape is beyond that side: a moment later that side is the shortest way out.
 //!
-//! What comes out of that plane faster than the rest threshold is struck, wherever it is by then.
+//! What comes out of the plane of the contact with `Z` faster than the rest threshold is struck all the same.
 //!
 //! The shape may be that of a body that slides over others, or the ground under a body of several colliders.
 

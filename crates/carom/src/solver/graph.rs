@@ -201,16 +201,17 @@ impl Graph {
         self.islands.is_stale = true;
     }
 
-    /// Lets the impulses of the last substep act again, where they are a good start.
+    /// Lets the impulses of the last substep act again, where they are a good start; returns the velocities before.
     ///
     /// They are asked for work only in islands whose bodies move faster than `lively` against each other: near rest their
     /// work is noise.
-    pub fn begin(&mut self, velocities: &mut [Row], [margin, lively]: [f64; 2], substep: f64) {
+    pub fn begin(&mut self, velocities: &mut [Row], [margin, lively]: [f64; 2], substep: f64) -> Vec<Row> {
         let _phase = profile::phase(Phase::Solve);
         let before = velocities.to_vec();
         self.resume((&before, velocities), [margin as f32, (1.0 / substep) as f32]);
         self.find_islands(velocities.len());
         self.refuse_gains(&before, velocities, lively);
+        before
     }
 
     /// Takes back the impulses that act again in those islands in which they do work: all forces of contacts together never do, so that

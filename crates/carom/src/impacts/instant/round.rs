@@ -25,10 +25,12 @@ impl Instant<'_> {
         loop {
             let round = Cast::of(self, &struck);
             let negligible = self.negligible(&struck, share);
-            let sweeps = match negligible > 0.0 {
-                true if share > NEGLIGIBLE => GLANCE,
-                true => EFFORT,
-                false => usize::MAX,
+            let sweeps = if negligible == 0.0 {
+                usize::MAX
+            } else if share > NEGLIGIBLE {
+                GLANCE
+            } else {
+                EFFORT
             };
             let blows = reflect(&round.movers, &round.spots, Start { blows: &earlier, negligible, sweeps });
             let after = velocities_after(&round.movers, &round.spots, &blows);

@@ -2,6 +2,7 @@
 
 use super::{Round, velocities_after};
 use crate::fault;
+use crate::impulse::Contact;
 use crate::math::DVec3;
 
 /// Sweeps over all contacts, which end when they change no velocity by more than this share of the fastest.
@@ -12,7 +13,8 @@ impl Round<'_> {
     /// Adds friction, as much of it as takes energy away and gives none.
     ///
     /// From the impulses `j₀` without friction to those with it, `j`, all between them keep to Newton's rule and to the cones, which are
-    /// convex. Where sweeps do not agree, the pushes are found once more with friction as it is by then. On the way the energy changes by `a·(d·u₀) + ½a²·(d·Kd)` with `d = j − j₀`; the way ends where this would become positive.
+    /// convex. On the way the energy changes by `a·(d·u₀) + ½a²·(d·Kd)` with `d = j − j₀`; the way ends where this would become positive.
+    /// Where sweeps do not agree, the pushes are found once more, with friction as it is by then.
     pub(super) fn rub(&mut self) {
         let (smooth, before) = (self.blows.clone(), self.velocities.clone());
         if !self.sweep((SWEEPS.min(self.sweeps), AGREEMENT), Self::push_and_rub) {
@@ -54,8 +56,8 @@ impl Round<'_> {
         if per_impulse <= 0.0 || spot.pulls {
             return self.push_along_normal(index);
         }
-        let friction = spot.contact.static_friction.max(spot.contact.dynamic_friction);
-        let limit = if blow.sticks { friction } else { fault::friction(spot.contact.dynamic_friction) };
+        let Contact { static_friction, dynamic_friction, .. } = spot.contact;
+        let limit = if blow.sticks { static_friction } else { fault::friction(dynamic_friction) };
         let rubbed = blow.tangent.length();
         let least = if limit > 0.0 { rubbed / limit } else { 0.0 };
         let change = (blow.normal + (row.wanted - self.speed(index)) / per_impulse).max(least) - blow.normal;

@@ -68,19 +68,14 @@ impl Rest {
         let rows = self.rows.held().to_vec();
         let gains: Vec<[DVec3; 2]> = rows.iter().map(|&row| self.gain(bodies, row, (law, substep))).collect();
         let gravity = law.gravity.length() * substep;
-        let unpushed: Vec<Row> = rows.iter().map(|&row| self.rows.velocities[row]).collect();
-        self.graph.begin(&mut self.rows.velocities, [law.contact_margin(), LIVELY * gravity], substep);
+        let limits = [law.contact_margin(), LIVELY * gravity];
+        let unpushed = self.graph.begin(&mut self.rows.velocities, limits, substep);
         let persisting: Vec<Row> = rows.iter().map(|&row| self.rows.velocities[row]).collect();
         self.solve(bodies, gravity);
 
         let mut is_steady = vec![true; bodies.states.len()];
-        for ((&row, gain), (warm, unpushed)) in rows.iter().zip(&gains).zip(persisting.iter().zip(unpushed)) {
-            let size =
-                |[linear, angular]: [DVec3; 2]| linear.length().max(angular.length() * bodies.grains[row]);
-            let after = self.rows.velocities[row];
-            let given = Row(std::array::from_fn(|k| if k < 6 { after.0[k] - unpushed.0[k] } else { 0.0 }));
-            let sudden = size(difference(&after, warm)).min(size(difference(&given, &self.rows.given[row])));
-            self.rows.given[row] = given;
+        for ((&row, gain), warm) in rows.iter().zip(&gains).zip(persisting) {
+            let sudden = self.sudden_change(row, [&unpushed[row], &warm], bodies.grains[row]);
             is_steady[row] = sudden <= STEADY * gain[0].length() || !is_free(bodies, row);
         }
         self.graph.in_whole_islands(&mut is_steady);
@@ -100,6 +95,16 @@ impl Rest {
             .collect();
         self.give(bodies, &wrenches, &held, (law, span));
         rows
+    }
+
+    /// How far (m/s) a body of this grain (m) is from being pushed as in the substep before: by the same contacts, or by others in their
+    /// place. It had these velocities with no contact pushing, and with those that go on.
+    fn sudden_change(&mut self, row: usize, [unpushed, persisting]: [&Row; 2], grain: f64) -> f64 {
+        let size = |[linear, angular]: [DVec3; 2]| linear.length().max(angular.length() * grain);
+        let after = self.rows.velocities[row];
+        let given = Row(std::array::from_fn(|k| if k < 6 { after.0[k] - unpushed.0[k] } else { 0.0 }));
+        let before = std::mem::replace(&mut self.rows.given[row], given);
+        size(difference(&after, persisting)).min(size(difference(&given, &before)))
     }
 
     /// Which bodies touch something with friction.

@@ -9,7 +9,7 @@ use crate::math::DVec3;
 /// A direction along which two shapes were apart, which the world keeps while their bodies move.
 ///
 /// With `n` the direction, `x` the centres of mass, `θ` how far each body turns and `ρ` how far a turn by one radian takes a point of
-/// its shape at most, no two points come nearer along `n`, let alone at all, than
+/// its shape at most, the two shapes are at least so far apart along `n`:
 ///
 /// ```text
 /// s ≥ s₀ + n·Δ(x_b − x_a) − ρ_a·θ_a − ρ_b·θ_b
@@ -32,7 +32,7 @@ impl Facing {
     pub fn of(pair: &Pair, bodies: &Bodies, (gap, time): (Gap, f64)) -> Self {
         let Some(normal) = gap.normal.filter(|_| gap.separation > 0.0) else { return Self::UNKNOWN };
         let centers = Centers::of(pair, bodies, (normal, time));
-        let level = gap.separation - centers.apart + turned(pair, bodies, time);
+        let level = gap.separation - centers.apart - centers.rounding + turned(pair, bodies, time);
         if level.is_nan() { Self::UNKNOWN } else { Self { normal, level } }
     }
 
@@ -44,7 +44,7 @@ impl Facing {
         let time = until - from;
         let centers = Centers::of(pair, bodies, (self.normal, from));
         let nearer = (centers.speed * time + 0.5 * centers.acceleration.min(0.0) * time * time).min(0.0);
-        let apart = self.level + centers.apart;
+        let apart = self.level + centers.apart - centers.rounding;
         let least = apart + nearer - 0.5 * centers.braking * time * time;
         [apart - turned(pair, bodies, from), least - turned(pair, bodies, until)]
     }
@@ -59,8 +59,10 @@ fn turned(pair: &Pair, bodies: &Bodies, time: f64) -> f64 {
 /// How two centres of mass move against each other along a direction.
 #[derive(Default)]
 struct Centers {
-    /// m, less what may be rounding.
+    /// m
     apart: f64,
+    /// What of that may be none, m.
+    rounding: f64,
     /// m/s
     speed: f64,
     /// m/s²
@@ -76,7 +78,8 @@ impl Centers {
             let (constants, influence) = (&bodies.constants[row], &bodies.influences[row]);
             let flown = time - bodies.clocks[row];
             let (position, velocity) = fly_center(&bodies.states[row], constants, influence, flown);
-            centers.apart += sign * position.dot(normal) - ROUNDING * position.abs().element_sum();
+            centers.apart += sign * position.dot(normal);
+            centers.rounding += ROUNDING * position.abs().element_sum();
             centers.speed += sign * velocity.dot(normal);
             centers.acceleration += sign * influence.acceleration.dot(normal);
             centers.braking += constants.linear_damping * bodies.paces[row].0;
