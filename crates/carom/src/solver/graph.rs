@@ -5,22 +5,21 @@
 //! bodies that move come first, those with the ground last, so that in doubt nothing is pushed into the ground.
 //!
 //! Bodies that contacts connect make an *island* (`graph/islands.rs`). What is done until the velocities of an island agree
-//! stands in `graph/agree.rs`, how threads share a pass over all contacts in `graph/passes.rs`; what contacts then exert, in
+//! stands in `graph/agree.rs`, where they start from in `graph/warm_start.rs`, how threads share a pass over all contacts in `graph/passes.rs`; what contacts then exert, in
 //! `graph/wrench.rs`.
 
 mod agree;
 mod islands;
 mod passes;
+mod warm_start;
 mod wrench;
 
 pub(crate) use agree::Effort;
 pub(crate) use wrench::Wrench;
 
 use super::bundle::{Bundle, Lane, POINTS, field};
-use super::kernels::Work;
 use super::lanes::{LANES, Line, Machine, Row};
 use crate::step::pool::Pool;
-use crate::step::profile::{self, Phase};
 use islands::Islands;
 use std::sync::Arc;
 
@@ -199,61 +198,6 @@ impl Graph {
             color.mark(to, taken);
         }
         self.islands.is_stale = true;
-    }
-
-    /// Lets the impulses of the last substep act again, where they are a good start; returns the velocities before.
-    ///
-    /// They are asked for work only in islands whose bodies move faster than `lively` against each other: near rest their
-    /// work is noise.
-    pub fn begin(&mut self, velocities: &mut [Row], [margin, lively]: [f64; 2], substep: f64) -> Vec<Row> {
-        let _phase = profile::phase(Phase::Solve);
-        let before = velocities.to_vec();
-        self.resume((&before, velocities), [margin as f32, (1.0 / substep) as f32]);
-        self.find_islands(velocities.len());
-        self.refuse_gains(&before, velocities, lively);
-        before
-    }
-
-    /// Takes back the impulses that act again in those islands in which they do work: all forces of contacts together never do, so that
-    /// these would be a worse start than none.
-    fn refuse_gains(&mut self, before: &[Row], velocities: &mut [Row], lively: f64) {
-        let is_lively: Vec<bool> =
-            self.spreads(before).iter().map(|&spread| f64::from(spread) > lively).collect();
-        if !is_lively.contains(&true) {
-            return;
-        }
-        let mut gains = vec![0.0; is_lively.len()];
-        for color in 0..self.colors.len() {
-            let works = self.each_stretch(color, |machine, bundles| {
-                machine.run(Work { bundles, before, after: velocities })
-            });
-            for (bundle, work) in self.colors[color].bundles.iter().zip(works.into_iter().flatten()) {
-                for (lane, work) in work.0.into_iter().enumerate() {
-                    if let Some(island) = self.island_of(bundle, lane) {
-                        gains[island] += f64::from(work);
-                    }
-                }
-            }
-        }
-        for (gain, is_lively) in gains.iter_mut().zip(is_lively) {
-            *gain = if is_lively { *gain } else { 0.0 };
-        }
-        if gains.iter().all(|&gain| gain <= 0.0) {
-            return;
-        }
-        let refused = |islands: &Islands, row: u32| islands.of(row).is_some_and(|island| gains[island] > 0.0);
-        for (row, velocity) in velocities.iter_mut().enumerate() {
-            if refused(&self.islands, row as u32) {
-                *velocity = before[row];
-            }
-        }
-        for bundle in self.colors.iter_mut().flat_map(|color| &mut color.bundles) {
-            for lane in 0..LANES {
-                if refused(&self.islands, bundle.a[lane]) || refused(&self.islands, bundle.b[lane]) {
-                    field::IMPULSES.into_iter().for_each(|line| bundle.lines[line].0[lane] = 0.0);
-                }
-            }
-        }
     }
 
     /// Finds displacements that take `share` of every overlap beyond `allowed` (m) away, into rows that hold none yet, and which

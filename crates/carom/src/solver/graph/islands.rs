@@ -31,6 +31,32 @@ impl Islands {
     }
 }
 
+/// Disjoint sets of rows, each named by its least.
+pub(super) struct Sets(Vec<u32>);
+
+impl Sets {
+    /// As many sets as rows.
+    pub fn of_each(rows: usize) -> Self {
+        Self((0..rows as u32).collect())
+    }
+
+    /// The name of the set that has `row`.
+    pub fn find(&mut self, mut row: u32) -> u32 {
+        let root = &mut self.0;
+        while root[row as usize] != row {
+            root[row as usize] = root[root[row as usize] as usize];
+            row = root[row as usize];
+        }
+        row
+    }
+
+    /// Makes one set of those that have `a` and `b`.
+    pub fn unite(&mut self, a: u32, b: u32) {
+        let (a, b) = (self.find(a), self.find(b));
+        self.0[a.max(b) as usize] = a.min(b);
+    }
+}
+
 /// The box around the velocities of an island's bodies.
 #[derive(Clone, Copy)]
 struct Spread {
@@ -96,27 +122,19 @@ impl Graph {
             movable.taken.iter_mut().zip(&color.taken).for_each(|(all, word)| *all |= word);
         }
         let is_movable = |row: usize| movable.is_taken(row as u32);
-        let mut root: Vec<u32> = (0..rows as u32).collect();
-        fn find(root: &mut [u32], mut row: u32) -> u32 {
-            while root[row as usize] != row {
-                root[row as usize] = root[root[row as usize] as usize];
-                row = root[row as usize];
-            }
-            row
-        }
+        let mut sets = Sets::of_each(rows);
         let lanes = || {
             let bundles = self.colors.iter().flat_map(|color| &color.bundles);
             bundles.flat_map(|bundle| bundle.a.iter().copied().zip(bundle.b))
         };
         for (a, b) in lanes().filter(|&(a, b)| is_movable(a as usize) && is_movable(b as usize)) {
-            let (a, b) = (find(&mut root, a), find(&mut root, b));
-            root[a.max(b) as usize] = a.min(b);
+            sets.unite(a, b);
         }
         let mut of_row = vec![NONE; rows];
         let mut sizes = Vec::new();
         for (a, b) in lanes() {
             let Some(row) = [a, b].into_iter().find(|&row| is_movable(row as usize)) else { continue };
-            let top = find(&mut root, row) as usize;
+            let top = sets.find(row) as usize;
             if of_row[top] == NONE {
                 of_row[top] = sizes.len() as u32;
                 sizes.push(0);
@@ -124,7 +142,7 @@ impl Graph {
             sizes[of_row[top] as usize] += 1;
         }
         for row in 0..rows {
-            of_row[row] = if is_movable(row) { of_row[find(&mut root, row as u32) as usize] } else { NONE };
+            of_row[row] = if is_movable(row) { of_row[sets.find(row as u32) as usize] } else { NONE };
         }
         let mut bodies = vec![0; sizes.len()];
         of_row.iter().filter(|&&island| island != NONE).for_each(|&island| bodies[island as usize] += 1);

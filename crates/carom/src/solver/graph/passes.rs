@@ -41,16 +41,6 @@ impl Graph {
         }
     }
 
-    /// What comes of stretches of a colour's bundles, in their order.
-    pub(super) fn each_stretch<R: Send>(
-        &self,
-        color: usize,
-        act: impl Fn(Machine, &[Bundle]) -> R + Sync,
-    ) -> Vec<R> {
-        let bundles = &self.colors[color].bundles;
-        self.pool.ranges(bundles.len(), GRAIN, |range| act(self.machine, &bundles[range]))
-    }
-
     pub(super) fn each_bundle(&mut self, mut act: impl FnMut(&mut Bundle)) {
         for color in self.order() {
             self.colors[color].bundles.iter_mut().for_each(&mut act);

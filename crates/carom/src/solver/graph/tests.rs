@@ -141,6 +141,42 @@ fn impulses_act_again_only_where_they_do_no_work() {
     assert_eq!([impulse(ids[0]), impulse(ids[1])], [GAIN as f32, 0.0]);
 }
 
+/// What rested under something fast once lost its impulses with it: one body that slid took the support of a pile of thousands away,
+/// substep after substep, and the pile shook for ever.
+#[test]
+fn a_lively_contact_loses_its_impulses_without_what_rests_beneath_it() {
+    use crate::math::DVec3;
+    use crate::solver::tests::{Mover, Problem};
+    const GAIN: f64 = 9.81 / 240.0;
+    // Two cubes on each other; the upper one slides and gets three times the impulse that it needs.
+    let cube = |y: f64, slide: f64| {
+        let mut mover = Mover::cuboid(DVec3::Y * y, DVec3::ONE, (1.0, crate::math::DQuat::IDENTITY));
+        mover.velocity.linear = DVec3::new(slide, -GAIN, 0.0);
+        mover
+    };
+    let mut problem = Problem::new([cube(0.5, 0.0), cube(1.5, 5.0)]);
+    problem.touch([0, 1], (DVec3::Y, &[DVec3::ZERO]), 0.5);
+    problem.touch([1, 2], (DVec3::Y, &[DVec3::Y]), 0.5);
+    let mut graph = Graph::default();
+    let ids: Vec<ContactId> = problem
+        .touches
+        .iter()
+        .zip([2.0, 3.0])
+        .map(|(touch, impulse)| {
+            let mut lane = problem.lane(touch);
+            lane[field::of_point(0, field::IMPULSE)] = impulse * GAIN as f32;
+            graph.insert(touch.bodies.map(|body| body as u32), touch.bodies.map(|body| body > 0), &lane)
+        })
+        .collect();
+    let mut velocities = problem.rows();
+    graph.begin(&mut velocities, [1e-4, 1.0], 1.0 / 240.0);
+    graph.validate(|row| row > 0);
+    let impulse = |id: ContactId| graph.get(id, field::of_point(0, field::IMPULSE));
+    assert_eq!([impulse(ids[0]), impulse(ids[1])], [2.0 * GAIN as f32, 0.0]);
+    assert!((velocities[1].0[1] - GAIN as f32).abs() < 1e-6, "{:?}", velocities[1]);
+    assert_eq!(velocities[2], problem.rows()[2]);
+}
+
 #[test]
 fn any_number_of_threads_gives_the_same_bits() {
     use crate::solver::tests::Problem;
