@@ -197,6 +197,7 @@ impl Graph {
             color.mark(from, false);
             color.mark(to, taken);
         }
+        self.islands.rename_row(from as usize, to as usize);
         self.islands.is_stale = true;
     }
 

@@ -7,6 +7,7 @@
 //! Conjugate gradients over sweeps (Silcowitz, Niebe and Erleben 2010) carry further, but overshoot where many contacts come
 //! and go: piles that plain sweeps bring to rest went on shaking with them.
 
+use super::islands::{Islands, NONE};
 use super::passes::{Chosen, GLANCES, Spot};
 use super::{Color, Graph};
 use crate::solver::bundle::{Bundle, field};
@@ -161,21 +162,28 @@ impl Graph {
                 }
             }
         }
-        for (pause, is_due) in self.islands.pauses.iter_mut().zip(&mut is_due).filter(|(_, due)| **due) {
-            *is_due = *pause == 0;
-            *pause = pause.saturating_sub(1);
+        let Islands { of_row, pauses, .. } = &mut self.islands;
+        let mut is_paused = vec![false; is_due.len()];
+        for (&island, pause) in of_row.iter().zip(pauses).filter(|(_, pause)| **pause > 0) {
+            if island != NONE && is_due[island as usize] {
+                is_paused[island as usize] = true;
+                *pause -= 1;
+            }
         }
+        is_due.iter_mut().zip(is_paused).for_each(|(is_due, is_paused)| *is_due &= !is_paused);
         let due = self.members(&is_due);
         let contacts: usize = due.iter().map(|(_, members)| members.len()).sum();
         let grain = if contacts < WORTH_SHARING { due.len() } else { 1 };
         let solved = self
             .pool
             .map(&due, grain, |(_, members)| self.solve_at_once(members, velocities, effort, &mobility));
-        for ((island, members), solved) in due.into_iter().zip(solved) {
-            self.islands.pauses[island] = if solved.is_some() { 0 } else { PAUSE };
-            if let Some(solved) = solved {
-                solved.write(velocities);
-                self.take_over(&members, &solved);
+        for ((_, members), solved) in due.into_iter().zip(solved) {
+            match solved {
+                Some(solved) => {
+                    solved.write(velocities);
+                    self.take_over(&members, &solved);
+                }
+                None => self.pause(&members),
             }
         }
     }
@@ -213,6 +221,17 @@ impl Graph {
             small.add(bundle, lane % LANES, velocities, &mobility);
         }
         small.solve(f64::from(effort.exactness)).then_some(small)
+    }
+
+    /// Lets the bodies of these contacts be for a while: they were not to be solved. That is kept body by body, since islands change
+    /// whenever a contact comes or goes, as with all that rolls.
+    fn pause(&mut self, members: &[Spot]) {
+        for &(color, lane) in members {
+            let bundle = &self.colors[color].bundles[lane / LANES];
+            for row in [bundle.a[lane % LANES], bundle.b[lane % LANES]] {
+                self.islands.pauses[row as usize] = PAUSE;
+            }
+        }
     }
 
     /// Gives the contacts of an island the impulses found.

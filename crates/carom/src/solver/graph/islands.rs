@@ -17,7 +17,7 @@ pub(super) struct Islands {
     pub bodies: Vec<usize>,
     /// Each island with the rows of what its contacts hold it against and nothing moves: the world, and what is driven.
     pub shores: Vec<(usize, u32)>,
-    /// For how many more substeps each island is not worth a direct solve: the last one led nowhere.
+    /// For how many more substeps the body of each row is not worth a direct solve: the last one led nowhere.
     pub pauses: Vec<u32>,
 }
 
@@ -25,6 +25,14 @@ pub(super) struct Islands {
 pub(super) const NONE: u32 = u32::MAX;
 
 impl Islands {
+    /// The body of row `from` has moved to row `to`.
+    pub fn rename_row(&mut self, from: usize, to: usize) {
+        if let Some(&pause) = self.pauses.get(from) {
+            self.pauses[to] = pause;
+            self.pauses[from] = 0;
+        }
+    }
+
     /// The island of a row's body.
     pub fn of(&self, row: u32) -> Option<usize> {
         self.of_row.get(row as usize).filter(|&&island| island != NONE).map(|&island| island as usize)
@@ -156,7 +164,8 @@ impl Graph {
                 shores.push(shore);
             }
         }
-        let pauses = vec![0; sizes.len()];
+        let mut pauses = std::mem::take(&mut self.islands.pauses);
+        pauses.resize(rows, 0);
         self.islands = Islands { is_stale: false, of_row, sizes, bodies, shores, pauses };
     }
 }
