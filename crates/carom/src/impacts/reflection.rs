@@ -279,28 +279,41 @@ impl<'a> Round<'a> {
 
     /// Steps 2 to 5.
     fn scale(&mut self) {
-        let (mut closing, mut bounced, mut per_unit) = (0.0, 0.0, 0.0);
-        for (index, blow) in self.blows.iter().enumerate() {
-            let (spot, before) = (&self.spots[index], self.rows[index].before);
-            let gained = self.velocity(index).dot(spot.contact.normal) - before;
-            closing += blow.normal * before;
-            bounced += blow.normal * before * fault::restitution(spot.contact.restitution);
-            per_unit += blow.normal * gained;
+        for group in self.groups(|index| self.blows[index].acts()) {
+            let (mut closing, mut bounced, mut per_unit) = (0.0, 0.0, 0.0);
+            for &index in &group {
+                let (spot, before) = (&self.spots[index], self.rows[index].before);
+                let pushed = self.blows[index].normal;
+                let gained = self.velocity(index).dot(spot.contact.normal) - before;
+                closing += pushed * before;
+                bounced += pushed * before * fault::restitution(spot.contact.restitution);
+                per_unit += pushed * gained;
+            }
+            if per_unit > 0.0 {
+                let fraction = -(closing + bounced) / per_unit;
+                group.into_iter().for_each(|index| self.blows[index].normal *= fraction.max(0.0));
+            }
         }
-        if per_unit > 0.0 {
-            let fraction = -(closing + bounced) / per_unit;
-            self.blows.iter_mut().for_each(|blow| blow.normal *= fraction.max(0.0));
-            self.velocities = velocities_after(self.movers, self.spots, &self.blows);
-        }
+        self.velocities = velocities_after(self.movers, self.spots, &self.blows);
     }
 
-    /// A spot that pushes alone gets what the seed has for it, to the last digit.
+    /// The spots that `act`, in groups that bodies connect which can be moved. The spots of a round hang together, but some of them may
+    /// push nothing: what is on either side of these keeps books of its own.
+    fn groups(&self, act: impl Fn(usize) -> bool) -> Vec<Vec<usize>> {
+        let acting: Vec<usize> = (0..self.spots.len()).filter(|&index| act(index)).collect();
+        let spots: Vec<Spot> = acting.iter().map(|&index| self.spots[index]).collect();
+        let groups = connected(self.movers, &spots).into_iter();
+        groups.map(|group| group.into_iter().map(|number| acting[number]).collect()).collect()
+    }
+
+    /// A spot whose bodies nothing else pushes gets what the seed has for it, to the last digit.
     fn settle_alone(&mut self) {
-        let mut pushing = (0..self.blows.len()).filter(|&index| self.blows[index].acts());
-        if let (Some(index), None) = (pushing.next(), pushing.next())
-            && !self.spots[index].pulls
-        {
-            self.blows[index] = Blow::alone(self.movers, &self.spots[index]);
+        for group in self.groups(|index| self.blows[index].acts()) {
+            if let [alone] = group[..]
+                && !self.spots[alone].pulls
+            {
+                self.blows[alone] = Blow::alone(self.movers, &self.spots[alone]);
+            }
         }
     }
 

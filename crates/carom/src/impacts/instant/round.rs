@@ -10,7 +10,7 @@ use crate::math::DVec3;
 /// pushes. What closes fast need not be known better than to the third of its speed.
 const NEGLIGIBLE: f64 = 1e-4;
 const ROUGH: f64 = 1e-2;
-const OF_THE_FASTEST: f64 = 1e-5;
+const OF_THE_FASTEST: f64 = 3e-4;
 
 /// So many sweeps are enough to see who pushes; and so many there are at most after that. Where friction slides and sticks by turns
 /// they may not agree by then: what still closes has a round of its own.

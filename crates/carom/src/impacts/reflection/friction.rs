@@ -20,20 +20,28 @@ impl Round<'_> {
         if !self.sweep((SWEEPS.min(self.sweeps), AGREEMENT), Self::push_and_rub) {
             self.sweep((SWEEPS.min(self.sweeps), AGREEMENT), Self::push_within_cone);
         }
-        let (mut first, mut second) = (0.0, 0.0);
-        for (index, (spot, blow)) in self.spots.iter().zip(&self.blows).enumerate() {
-            let further = blow.impulse(spot) - smooth[index].impulse(spot);
-            let without = spot.velocity(|mover| before[mover]);
-            first += further.dot(without);
-            second += further.dot(self.velocity(index) - without);
-        }
-        let share = if second > 0.0 { (-2.0 * first / second).clamp(0.0, 1.0) } else { 0.0 };
-        if share < 1.0 {
-            for (blow, smooth) in self.blows.iter_mut().zip(&smooth) {
-                blow.normal = smooth.normal + share * (blow.normal - smooth.normal);
-                blow.tangent *= share;
-                blow.sticks = false;
+        let mut is_cut = false;
+        for group in self.groups(|index| smooth[index].acts() || self.blows[index].acts()) {
+            let (mut first, mut second) = (0.0, 0.0);
+            for &index in &group {
+                let spot = &self.spots[index];
+                let further = self.blows[index].impulse(spot) - smooth[index].impulse(spot);
+                let without = spot.velocity(|mover| before[mover]);
+                first += further.dot(without);
+                second += further.dot(self.velocity(index) - without);
             }
+            let share = if second > 0.0 { (-2.0 * first / second).clamp(0.0, 1.0) } else { 0.0 };
+            if share < 1.0 {
+                is_cut = true;
+                for index in group {
+                    let (blow, smooth) = (&mut self.blows[index], &smooth[index]);
+                    blow.normal = smooth.normal + share * (blow.normal - smooth.normal);
+                    blow.tangent *= share;
+                    blow.sticks = false;
+                }
+            }
+        }
+        if is_cut {
             self.velocities = velocities_after(self.movers, self.spots, &self.blows);
         }
     }
