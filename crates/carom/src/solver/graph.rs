@@ -201,9 +201,9 @@ impl Graph {
         self.islands.is_stale = true;
     }
 
-    /// Finds displacements that take `share` of every overlap beyond `allowed` (m) away, into rows that hold none yet, and which
-    /// contact pushes how: displacements times masses, in place of impulses (kg·m).
-    pub fn push_out(&mut self, displacements: &mut [Row], share: f32, allowed: f32) -> Vec<Wrench> {
+    /// Finds displacements for all overlaps beyond `allowed` (m), into rows that hold none yet: they take `share` of what is beyond `left`
+    /// away. And which contact pushes how: displacements times masses, in place of impulses (kg·m).
+    pub fn push_out(&mut self, displacements: &mut [Row], share: f32, [allowed, left]: [f32; 2]) -> Vec<Wrench> {
         let overlaps = |bundle: &Bundle| bundle.lines[field::GAP].0.iter().any(|&gap| gap < -allowed);
         if !self.colors.iter().flat_map(|color| &color.bundles).any(overlaps) {
             return Vec::new();
@@ -218,7 +218,7 @@ impl Graph {
                 let separation = bundle.lines[field::of_point(point, field::SEPARATION)].0;
                 bundle.lines[field::of_point(point, field::IMPULSE)] = Line::ZERO;
                 bundle.lines[field::of_point(point, field::LEAST)] =
-                    Line(separation.map(|s| if s < -allowed { share * (-s - allowed) } else { -s.max(0.0) }));
+                    Line(separation.map(|s| if s < -allowed { share * (-s - left) } else { -s.max(0.0) }));
             }
         });
         for _ in 0..PUSH_SWEEPS {

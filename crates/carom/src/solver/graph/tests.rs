@@ -201,7 +201,7 @@ fn any_number_of_threads_gives_the_same_bits() {
             graph.solve(&mut velocities, effort, |row| problem.mobility(row));
         }
         let mut wrenches = graph.wrenches(&velocities);
-        wrenches.extend(graph.push_out(&mut displacements, 0.5, 0.0));
+        wrenches.extend(graph.push_out(&mut displacements, 0.5, [0.0; 2]));
         assert_eq!(pool.has_workers(), threads > 1);
         let pushes = wrenches.iter().map(|it| (it.contact, it.impulse(), it.moment())).collect::<Vec<_>>();
         let residuals = graph
