@@ -150,6 +150,15 @@ impl Graph {
         })
     }
 
+    /// The contacts with a gap of no more than `margin` (m).
+    pub fn within(&self, margin: f32) -> impl Iterator<Item = ContactId> {
+        self.colors.iter().flat_map(move |Color { bundles, contacts, .. }| {
+            let gaps = bundles.iter().flat_map(|bundle| &bundle.lines[field::GAP].0);
+            let near = contacts.iter().zip(gaps).filter(move |(_, gap)| **gap <= margin);
+            near.map(|(&contact, _)| ContactId(contact))
+        })
+    }
+
     /// The rows of a contact's bodies.
     pub fn rows(&self, id: ContactId) -> [u32; 2] {
         self.place(id).map_or([0; 2], |place| {
@@ -203,7 +212,12 @@ impl Graph {
 
     /// Finds displacements for all overlaps beyond `allowed` (m), into rows that hold none yet: they take `share` of what is beyond `left`
     /// away. And which contact pushes how: displacements times masses, in place of impulses (kg·m).
-    pub fn push_out(&mut self, displacements: &mut [Row], share: f32, [allowed, left]: [f32; 2]) -> Vec<Wrench> {
+    pub fn push_out(
+        &mut self,
+        displacements: &mut [Row],
+        share: f32,
+        [allowed, left]: [f32; 2],
+    ) -> Vec<Wrench> {
         let overlaps = |bundle: &Bundle| bundle.lines[field::GAP].0.iter().any(|&gap| gap < -allowed);
         if !self.colors.iter().flat_map(|color| &color.bundles).any(overlaps) {
             return Vec::new();

@@ -2,7 +2,6 @@
 
 use crate::bodies::{Bodies, WORLD_ROW};
 use crate::flight::RigidState;
-use crate::impacts::time_of_impact::RestLaw;
 use crate::report::Overlap;
 use crate::world::World;
 
@@ -41,16 +40,6 @@ pub(crate) fn sense(world: &mut World) {
     world.report.overlaps.extend(sensed);
     let order = |it: &Overlap| (it.sensor, it.sensor_collider, it.visitor, it.visitor_collider);
     world.report.overlaps.sort_unstable_by_key(order);
-}
-
-/// How many pairs of bodies touch.
-pub(crate) fn count_contacts(world: &World, law: RestLaw) -> usize {
-    let slot = |key| world.bodies.collider(key).map(|collider| collider.slot);
-    let touching = world.rest.touching(&world.pairs, law);
-    let mut pairs: Vec<_> = touching.map(|pair| (slot(pair.colliders.0), slot(pair.colliders.1))).collect();
-    pairs.sort_unstable();
-    pairs.dedup();
-    pairs.len()
 }
 
 /// Writes what users read.

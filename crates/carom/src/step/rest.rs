@@ -61,6 +61,9 @@ struct Owner {
     pair: usize,
     /// Whether it would bounce if it were struck faster.
     bounces: bool,
+    /// Those of its bodies, and whether these have no other contact with each other.
+    slots: [u32; 2],
+    is_alone: bool,
 }
 
 /// A stretch of a step.
@@ -207,13 +210,20 @@ impl Rest {
         }
     }
 
-    /// The pairs that touch.
-    pub fn touching<'a>(&'a self, pairs: &'a Pairs, law: RestLaw) -> impl Iterator<Item = &'a Pair> {
-        let margin = law.contact_margin() as f32;
-        let touches = move |support: &Support| self.graph.get(support.contact, field::GAP) <= margin;
-        // A body that was lost since has taken its pairs with it.
-        let resting = self.resting.iter().filter(|&&index| pairs.rests(index)).map(|&index| &pairs[index]);
-        resting.filter(move |pair| pair.supports.iter().any(touches))
+    /// How many pairs of bodies touch.
+    pub fn count_touching(&self, law: RestLaw) -> usize {
+        let (mut alone, mut shared) = (0, Vec::new());
+        for contact in self.graph.within(law.contact_margin() as f32) {
+            let Owner { slots, is_alone, .. } = self.owners[contact.index()];
+            if is_alone {
+                alone += 1;
+            } else {
+                shared.push((slots[0].min(slots[1]), slots[0].max(slots[1])));
+            }
+        }
+        shared.sort_unstable();
+        shared.dedup();
+        alone + shared.len()
     }
 
     /// Whether all points of a pair that rests are so near that the contacts have them all.

@@ -13,7 +13,7 @@ use crate::impacts::time_of_impact::{Approach, RestLaw};
 use crate::math::{DMat3, DVec3};
 use crate::solver::bundle::{Lane, field};
 use crate::solver::prepare::{Remembered, Side, Terms, lane};
-use crate::step::pairs::{Pairs, Support};
+use crate::step::pairs::{Pair, Pairs, Support};
 use crate::step::profile::{self, Phase};
 
 /// Motion of a body, as a share of its smallest collider's reach or in radians, after which its contacts are renewed: of one that lies or
@@ -111,6 +111,7 @@ impl Rest {
         let rows = pair.rows.map(|row| row as u32);
         let movable = pair.rows.map(|row| bodies.constants[row].is_movable());
         (pair.is_pressed, pair.is_outdated) = (view.is_pressed, false);
+        let owner = owner(bodies, pair, index, view.contacts.len());
         for (number, (manifold, lane)) in view.contacts.iter().enumerate() {
             let contact = match old.get(number) {
                 Some(support) => {
@@ -123,7 +124,7 @@ impl Rest {
                 }
             };
             self.owners.resize(self.owners.len().max(contact.index() + 1), Owner::default());
-            self.owners[contact.index()] = Owner { pair: index, bounces: pair.surface.restitution > 0.0 };
+            self.owners[contact.index()] = owner;
             pair.supports.push(Support::new(contact, manifold));
         }
         for support in old.iter().skip(view.contacts.len()) {
@@ -198,4 +199,13 @@ impl Rest {
             }
         }
     }
+}
+
+/// Whose the contacts of a pair are, of which it has so many.
+fn owner(bodies: &Bodies, pair: &Pair, index: usize, contacts: usize) -> Owner {
+    let (a, b) = pair.colliders;
+    let slots = [a, b].map(|key| bodies.collider(key).map_or(0, |collider| collider.slot));
+    let is_single = |slot: u32| bodies.record(slot).is_some_and(|record| record.colliders.len() == 1);
+    let is_alone = contacts == 1 && slots.into_iter().all(is_single);
+    Owner { pair: index, bounces: pair.surface.restitution > 0.0, slots, is_alone }
 }
