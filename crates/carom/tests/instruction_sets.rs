@@ -182,12 +182,12 @@ const THREADS: [u32; 3] = [1, 2, 4];
 
 /// The hashes of states and events of [pile, mesh, gas, cradle, stack, crowd].
 const EXPECTED: [[u64; 2]; 6] = [
-    [0xb28b_526b_bb33_2ab0, 0x530b_8cfa_6693_0860],
-    [0x8667_3ce4_c7cc_8be0, 0xaf73_e82b_4366_9c0d],
+    [0x47cf_8864_ca82_dbbe, 0xb230_2047_de75_f892],
+    [0x2ec5_fec8_991e_442d, 0x6f9e_f57d_9fcc_a6ef],
     [0xb7c9_a597_8de9_22c8, 0x12d9_d339_e94d_7830],
     [0x495a_c80e_1b79_9fde, 0x046b_b65b_a085_2bf1],
-    [0x17f1_40d1_ee1b_c83e, 0x0125_dda8_602f_8478],
-    [0xb1d1_3f88_660c_1f54, 0x430f_89c2_e395_ebd0],
+    [0xc2b1_37db_840a_fc02, 0xcf51_5fc0_50bf_0ded],
+    [0xb4ac_0e0e_74e5_e8f5, 0x1fb6_3b24_65e3_dc94],
 ];
 
 #[test]
