@@ -160,6 +160,29 @@ fn a_heap_of_bricks_gains_no_energy() {
     }
 }
 
+/// Contacts alone keep what is pushed out of one body from being pushed into another. A cone in a pile went 7 mm into a wall in this way.
+#[test]
+#[ignore = "the box is pushed 8 mm into the wall; to leave where they are those that have no room lets deep overlaps of piles last"]
+fn what_overlaps_is_not_pushed_into_what_it_does_not_touch() {
+    const GAP: f64 = 2e-3;
+    const LEFT: f64 = 4e-5;
+    let mut world = World::new();
+    world.add(ground());
+    let boxes = [0.0, 0.96].map(|x| {
+        let mut body = cube(0.5);
+        body.position.x = x;
+        world.add(body)
+    });
+    world.add(Body::fixed().at(1.96 + GAP, 0.5, 0.0).with(Shape::cuboid(1.0, 1.0, 1.0)));
+    for step in 0..60 {
+        world.step(STEP);
+        let [_, x] = boxes.map(|id| world[id].position().x);
+        assert!(x <= 0.96 + GAP + LEFT, "{} m in the wall after step {step}", x - 0.96 - GAP);
+    }
+    let [a, b] = boxes.map(|id| world[id].position().x);
+    assert!(b - a >= 1.0 - LEFT, "the boxes still overlap by {} m", 1.0 - (b - a));
+}
+
 #[test]
 fn a_box_that_overlaps_a_wall_is_pushed_out_though_it_parts_slowly() {
     let mut world = World::new();
