@@ -23,6 +23,27 @@ fn run(world: &mut World, steps: u32) {
 }
 
 #[test]
+fn bodies_that_touch_at_several_places_count_as_one_contact() {
+    let mut world = World::new();
+    world.add(ground());
+    let legs = [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)];
+    let top = Body::dynamic().at(0.0, 1.1, 0.0).with(Shape::cuboid(2.4, 0.2, 2.4));
+    let table = legs.into_iter().fold(top, |table, (x, z)| {
+        table.collider(Collider::new(Shape::cuboid(0.2, 1.0, 0.2)).at(x, -0.6, z))
+    });
+    world.add(table);
+    world.add(cube(1.7));
+    // A sheet of two triangles, with a cube over both of them.
+    let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+    let sheet = corners.map(|(x, z)| DVec3::new(x, 0.0, z)).to_vec();
+    let sheet = Shape::mesh(sheet, vec![[0, 2, 1], [0, 3, 2]]).unwrap();
+    world.add(Body::fixed().at(10.0, 1.0, 0.0).with(sheet));
+    world.add(cube(1.5).at(10.0, 1.5, 0.0));
+    run(&mut world, 30);
+    assert_eq!(world.step(STEP).contacts(), 3);
+}
+
+#[test]
 fn a_body_that_is_lost_leaves_the_count_of_contacts_right() {
     let mut world = World::new();
     world.add(ground());
