@@ -5,8 +5,8 @@
 //! bodies that move come first, those with the ground last, so that in doubt nothing is pushed into the ground.
 //!
 //! Bodies that contacts connect make an *island* (`graph/islands.rs`). What is done until the velocities of an island agree
-//! stands in `graph/agree.rs`, where they start from in `graph/warm_start.rs`, how threads share a pass over all contacts in `graph/passes.rs`; what contacts then exert, in
-//! `graph/wrench.rs`.
+//! stands in `graph/agree.rs`, where they start from in `graph/warm_start.rs`, how threads share a pass over all contacts in
+//! `graph/passes.rs`; what contacts then exert, in `graph/wrench.rs`.
 
 mod agree;
 mod islands;

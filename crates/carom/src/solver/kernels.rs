@@ -66,24 +66,19 @@ impl Kernel for Begin<'_> {
     }
 }
 
-/// [`work`], bundle by bundle.
+/// [`work`] of a bundle.
 pub(crate) struct Work<'a> {
-    pub bundles: &'a [Bundle],
+    pub bundle: &'a Bundle,
     pub before: &'a [Row],
     pub after: &'a [Row],
 }
 
 impl Kernel for Work<'_> {
-    type Output = Vec<Line>;
+    type Output = Line;
 
     #[inline(always)]
-    fn run<L: Lanes>(self) -> Vec<Line> {
-        let mut works = Vec::with_capacity(self.bundles.len());
-        for (index, bundle) in self.bundles.iter().enumerate() {
-            bring_next::<L>(self.bundles, index, field::SWEPT);
-            works.push(work::<L>(bundle, self.before, self.after));
-        }
-        works
+    fn run<L: Lanes>(self) -> Line {
+        work::<L>(self.bundle, self.before, self.after)
     }
 }
 

@@ -231,7 +231,6 @@ fn a_single_contact_is_the_seeds() {
     }
 }
 
-/// A cube of 1 m and 1 kg over a floor, and its four lower corners.
 /// A cylinder that tipped onto the floor once closed by 4e-5 m/s, since the round had ended where that was good enough: a contact with
 /// another body, which did not push in the end, had made it one of several.
 #[test]
@@ -255,6 +254,7 @@ fn what_is_pushed_at_one_spot_gets_the_seeds_also_where_idle_spots_connect_it() 
     }
 }
 
+/// A cube of 1 m and 1 kg over a floor, and its four lower corners.
 fn cube(velocity: Velocity, friction: f64) -> ([Mover; 2], [Spot; 4]) {
     let inertia = DMat3::from_diagonal(DVec3::splat(1.0 / 6.0));
     let inverse_inertia = DMat3::from_diagonal(DVec3::splat(6.0));

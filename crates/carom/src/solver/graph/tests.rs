@@ -142,7 +142,7 @@ fn impulses_act_again_only_where_they_do_no_work() {
 }
 
 /// What rested under something fast once lost its impulses with it: one body that slid took the support of a pile of thousands away,
-/// substep after substep, and the pile shook for ever.
+/// substep after substep, and the pile shook for more than ten seconds.
 #[test]
 fn a_lively_contact_loses_its_impulses_without_what_rests_beneath_it() {
     use crate::math::DVec3;

@@ -13,10 +13,11 @@ use crate::solver::kernels::Work;
 use crate::solver::lanes::{LANES, Line, Row};
 use crate::step::profile::{self, Phase};
 
-/// A lively contact: its colour, its lane there, and what its impulses have done, J.
+/// A lively contact: its colour, its lane there, its bodies, and what its impulses have done, J.
 struct Lively {
     color: usize,
     lane: usize,
+    rows: [u32; 2],
     work: f32,
 }
 
@@ -43,9 +44,7 @@ impl Graph {
         }
         let contacts = self.lively([before, after], lively);
         let mut sets = Sets::of_each(before.len());
-        for &Lively { color, lane, .. } in &contacts {
-            let bundle = &self.colors[color].bundles[lane / LANES];
-            let [a, b] = [bundle.a[lane % LANES], bundle.b[lane % LANES]];
+        for &Lively { rows: [a, b], .. } in &contacts {
             if [a, b].into_iter().all(|row| self.islands.of(row).is_some()) {
                 sets.unite(a, b);
             }
@@ -74,14 +73,16 @@ impl Graph {
         let mut found = Vec::new();
         for (color, it) in self.colors.iter().enumerate() {
             for (index, bundle) in it.bundles.iter().enumerate() {
-                let lanes: Vec<usize> = (0..LANES).filter(|&lane| is_lively(bundle, lane)).collect();
-                if lanes.is_empty() {
+                let mut lanes = (0..LANES).filter(|&lane| is_lively(bundle, lane)).peekable();
+                if lanes.peek().is_none() {
                     continue;
                 }
-                let bundles = std::slice::from_ref(bundle);
-                let works: Vec<Line> = self.machine.run(Work { bundles, before, after });
-                found.extend(works.iter().flat_map(|work| {
-                    lanes.iter().map(|&lane| Lively { color, lane: index * LANES + lane, work: work.0[lane] })
+                let works: Line = self.machine.run(Work { bundle, before, after });
+                found.extend(lanes.map(|lane| Lively {
+                    color,
+                    lane: index * LANES + lane,
+                    rows: [bundle.a[lane], bundle.b[lane]],
+                    work: works.0[lane],
                 }));
             }
         }
@@ -89,9 +90,7 @@ impl Graph {
     }
 
     /// The row that stands for the group of a lively contact.
-    fn group_of(&self, &Lively { color, lane, .. }: &Lively, sets: &mut Sets) -> usize {
-        let bundle = &self.colors[color].bundles[lane / LANES];
-        let rows = [bundle.a[lane % LANES], bundle.b[lane % LANES]];
+    fn group_of(&self, &Lively { rows, .. }: &Lively, sets: &mut Sets) -> usize {
         let movable = rows.into_iter().find(|&row| self.islands.of(row).is_some());
         sets.find(movable.unwrap_or(rows[0])) as usize
     }

@@ -20,8 +20,8 @@ use crate::step::profile::{self, Phase};
 const AGREEMENT: f64 = 1e-3;
 const EXACTNESS: f64 = 5e-6;
 
-/// An island whose bodies move no faster than this against each other is about to rest, and worth the effort of both; in one
-/// where they move faster than the second, impulses that act again must not do work.
+/// An island whose bodies move no faster than this against each other is about to rest, and worth the effort of both;
+/// where the two of a contact move faster than the second, impulses that act again must not do work.
 const QUIET: f64 = 3.0;
 const LIVELY: f64 = 20.0;
 
