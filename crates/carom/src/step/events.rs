@@ -118,6 +118,11 @@ impl<'a> Events<'a> {
                 due.push(index);
             }
         }
+        self.ask_all(due, span);
+    }
+
+    /// Asks all these pairs when they will touch, from the start of `span` on.
+    fn ask_all(&mut self, mut due: Vec<usize>, span: Span) {
         let answers = self.rest.pool().map(&due, QUESTIONS, |&index| self.answer(index, span));
         for (index, answer) in due.drain(..).zip(answers) {
             self.note(index, answer, span);
@@ -261,9 +266,7 @@ impl<'a> Events<'a> {
             let until = if self.rest.is_held(row) { span.until } else { self.law.step };
             set_pace(self.bodies, row, until);
         }
-        for row in outcome.rows {
-            self.reroute(row, span);
-        }
+        self.reroute(outcome.rows, span);
         for pair in outcome.unfinished {
             self.rest.hand_back(self.pairs, pair);
             let now = &mut self.pairs[pair].now;
@@ -286,20 +289,20 @@ impl<'a> Events<'a> {
         closing <= touch.rest_speed || rattles || wedged
     }
 
-    /// A body has got a new path at the start of `span`: find whom it could touch now, and ask all its pairs again.
-    fn reroute(&mut self, row: usize, span: Span) {
-        if row == WORLD_ROW {
-            return;
-        }
+    /// Bodies have got new paths at the start of `span`: find whom they could touch now, and ask all their pairs again.
+    fn reroute(&mut self, mut rows: Vec<usize>, span: Span) {
         let _phase = profile::phase(Phase::Ask);
-        self.agenda.rerouted.push(row);
-        self.claim_anew(&[row], span.from);
-        for number in 0..self.pairs.count_of_row(row) {
-            let index = self.pairs.of_row(row, number);
-            if !self.pairs[index].now.is_sensed {
-                self.ask(index, span);
-            }
+        rows.retain(|&row| row != WORLD_ROW);
+        self.agenda.rerouted.extend(&rows);
+        self.claim_anew(&rows, span.from);
+        let mut due = std::mem::take(&mut self.agenda.due);
+        for row in rows {
+            let pairs = (0..self.pairs.count_of_row(row)).map(|number| self.pairs.of_row(row, number));
+            due.extend(pairs.filter(|&index| !self.pairs[index].now.is_sensed));
         }
+        due.sort_unstable();
+        due.dedup();
+        self.ask_all(due, span);
     }
 
     /// Looks for new neighbours of those bodies whose paths could lead out of their boxes.
