@@ -6,7 +6,7 @@
 
 use super::cone::{Cone, SHARED_OUT, unexplained};
 use super::law::{Finding, Law, Place, ROUNDING};
-use super::motion::{Course, Deviation, deviation};
+use super::motion::{Course, Deviation, Knot, deviation};
 use super::near::{HORIZON, Pair, Touch};
 use super::strike::Strike;
 use carom::math::DVec3;
@@ -62,10 +62,11 @@ impl<'a> Resting<'a> {
                 let impulse = course.mass * deviation.velocity;
                 if course.mass.is_finite() {
                     let tolerance = ROUNDING * course.mass * deviation.speeds + SHARED_OUT * impulse.length();
-                    // What gravity does in a substep is given to it as a whole; a collision within one divides it.
-                    let divided = from.time > self.span.0 || to.time < self.span.1;
-                    let advance =
-                        if divided { course.mass * self.substep * course.gravity } else { DVec3::ZERO };
+                    let advance = if is_divided(self.span, from, to) {
+                        course.mass * self.substep * course.gravity
+                    } else {
+                        DVec3::ZERO
+                    };
                     let error = unexplained(impulse, &cones, advance, tolerance);
                     let place = Place::Bodies(vec![course.id], to.time);
                     findings.push(Finding { law: Law::Support, place, error, tolerance });
@@ -133,6 +134,12 @@ impl<'a> Resting<'a> {
         let wider = (turned + rolled).min(1.0);
         cones.extend(touches.iter().map(|touch| (sign * touch.normal, touch.friction + wider + 1e-4)));
     }
+}
+
+/// Whether a collision divides a substep at an end of this stretch of a step: at its very start as well. What gravity and contacts do in a
+/// substep is given to a body as a whole, so that some of it may be on the other side.
+pub(super) fn is_divided(span: (f64, f64), from: &Knot, to: &Knot) -> bool {
+    from.time > span.0 || to.time < span.1 || from.before != from.after
 }
 
 fn flight(course: &Course, deviation: &Deviation, time: f64, findings: &mut Vec<Finding>) {

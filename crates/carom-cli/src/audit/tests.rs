@@ -1,7 +1,10 @@
 //! What the audit finds, and what not.
 
+use super::motion::Knot;
+use super::rest::is_divided;
 use super::*;
-use carom::math::{DQuat, DVec3, Quat};
+use carom::impulse::Velocity;
+use carom::math::{DQuat, DVec3, Pose, Quat};
 use carom::{Body, Settings, Shape};
 
 /// A spinning ball that hits a resting one (or an immovable box) off its centre, as a world and the record of it.
@@ -282,6 +285,20 @@ fn what_rests_is_pushed_and_not_pulled_and_within_the_cone() {
     assert_eq!(resting([0.0; 3]), []);
     assert!(resting([0.0, -0.3, 0.0]).contains(&Law::GroupMomentum));
     assert!(resting([0.1, 0.0, 0.0]).contains(&Law::Support));
+}
+
+/// A cone that was struck at the very start of a step, when contacts had given it gravity for the substep, was said to have been held up
+/// by nothing.
+#[test]
+fn a_collision_at_the_start_of_a_step_divides_a_substep() {
+    let knot = |time: f64, [before, after]: [f64; 2]| {
+        let moving = |speed: f64| Velocity { linear: DVec3::X * speed, angular: DVec3::ZERO };
+        Knot { time, pose: Pose::IDENTITY, before: moving(before), after: moving(after) }
+    };
+    let (start, end) = (knot(1.0, [2.0, 2.0]), knot(1.5, [2.0, 2.0]));
+    assert!(!is_divided((1.0, 1.5), &start, &end));
+    assert!(is_divided((1.0, 1.5), &knot(1.0, [2.0, -1.0]), &end));
+    assert!(is_divided((0.5, 1.5), &start, &end) && is_divided((1.0, 2.0), &start, &end));
 }
 
 /// The audit took the shortest turn from one step's end to the next at an even rate, and had this capsule 5 mm off its path: in a wall
