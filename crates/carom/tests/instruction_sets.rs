@@ -182,12 +182,12 @@ const THREADS: [u32; 3] = [1, 2, 4];
 
 /// The hashes of states and events of [pile, mesh, gas, cradle, stack, crowd].
 const EXPECTED: [[u64; 2]; 6] = [
-    [0x47cf_8864_ca82_dbbe, 0xb230_2047_de75_f892],
-    [0x2ec5_fec8_991e_442d, 0x6f9e_f57d_9fcc_a6ef],
+    [0x0ef7_d581_d12d_26e5, 0x3319_459e_259e_319f],
+    [0x54fd_4541_45cb_9074, 0x9ea1_e918_d1b7_2f11],
     [0xb7c9_a597_8de9_22c8, 0x12d9_d339_e94d_7830],
     [0x495a_c80e_1b79_9fde, 0x046b_b65b_a085_2bf1],
-    [0xc2b1_37db_840a_fc02, 0xcf51_5fc0_50bf_0ded],
-    [0xb4ac_0e0e_74e5_e8f5, 0x1fb6_3b24_65e3_dc94],
+    [0x264a_e158_f520_2bf6, 0x5551_fa50_45ec_dc18],
+    [0x7e0a_8c17_24fb_0e9d, 0x2919_7bf8_3754_859e],
 ];
 
 #[test]

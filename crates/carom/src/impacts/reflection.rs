@@ -23,13 +23,15 @@ mod friction;
 mod groups;
 mod haste;
 mod row;
+mod spot;
 
 use crate::fault;
-use crate::impulse::{Contact, Resolution, Side, Velocity, resolve};
-use crate::math::{DMat3, DVec3};
+use crate::impulse::Velocity;
+use crate::math::DVec3;
 use groups::connected;
 use haste::Haste;
 use row::Row;
+pub(crate) use spot::{Blow, Mover, Spot};
 
 /// Sweeps over all contacts of a round, which end when they change no speed by more than this share of the fastest.
 const SWEEPS: usize = 400;
@@ -39,86 +41,11 @@ const AGREEMENT: f64 = 1e-14;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Start<'a> {
     pub blows: &'a [Blow],
+    /// 0 where anything bounces.
     pub negligible: f64,
     pub sweeps: usize,
-}
-
-/// A body at the instant.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Mover {
-    /// Infinite for what no impulse can move, kg.
-    pub mass: f64,
-    /// Zero on axes of infinite inertia.
-    pub inertia: DMat3,
-    pub inverse_inertia: DMat3,
-    pub velocity: Velocity,
-}
-
-impl Mover {
-    /// Whether an impulse changes its velocity.
-    fn is_movable(&self) -> bool {
-        self.mass.is_finite() || self.inverse_inertia != DMat3::ZERO
-    }
-}
-
-/// A place where two bodies touch, or are tied.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Spot {
-    /// Which two movers.
-    pub movers: [usize; 2],
-    /// Lever arms, m.
-    pub arms: [DVec3; 2],
-    pub contact: Contact,
-    /// Whether it also pulls: the row of a joint, which keeps its speed along the normal at zero.
-    pub pulls: bool,
-}
-
-/// What a spot gets: the impulse on its second body, N·s, split along the normal.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Blow {
-    pub normal: f64,
-    pub tangent: DVec3,
-    pub sticks: bool,
-}
-
-impl Blow {
-    /// What a spot gets that is struck alone.
-    fn alone(movers: &[Mover], spot: &Spot) -> Self {
-        let Resolution { fraction, friction_impulse, sticks, .. } =
-            resolve(&spot.side(movers, 0), &spot.side(movers, 1), &spot.contact);
-        Self { normal: fraction, tangent: friction_impulse, sticks }
-    }
-
-    /// Whether it is an impulse at all.
-    pub fn acts(&self) -> bool {
-        self.normal != 0.0 || self.tangent != DVec3::ZERO
-    }
-
-    fn impulse(&self, spot: &Spot) -> DVec3 {
-        self.normal * spot.contact.normal + self.tangent
-    }
-}
-
-impl Spot {
-    /// One of its bodies, as the seed sees it.
-    pub fn side(&self, movers: &[Mover], side: usize) -> Side {
-        let Mover { mass, inertia, inverse_inertia, velocity } = movers[self.movers[side]];
-        Side { mass, inertia, inverse_inertia, arm: self.arms[side], velocity }
-    }
-
-    /// Velocity of the second body's point against the first's, m/s.
-    pub fn velocity(&self, velocities: impl Fn(usize) -> Velocity) -> DVec3 {
-        velocities(self.movers[1]).at(self.arms[1]) - velocities(self.movers[0]).at(self.arms[0])
-    }
-
-    fn is_rough(&self) -> bool {
-        self.contact.static_friction > 0.0 || self.contact.dynamic_friction > 0.0
-    }
-
-    /// What the contact's own rule asks for: the least speed along the normal afterwards.
-    fn wanted(&self, before: f64) -> f64 {
-        if self.pulls { 0.0 } else { fault::restitution(self.contact.restitution) * (-before).max(0.0) }
-    }
+    /// Whether all that is asked is who pushes.
+    pub is_glance: bool,
 }
 
 /// Impulses for all `spots` of a round. The first of them may have got some already. Spots that no body connects which can be moved
@@ -145,10 +72,15 @@ fn reflect_connected(movers: &[Mover], spots: &[Spot], start: Start<'_>) -> Vec<
         return vec![Blow::alone(movers, spot)];
     }
     let mut round = Round::new(movers, spots, start);
-    round.push_along_normals();
-    round.scale();
-    if spots.iter().any(Spot::is_rough) {
-        round.rub();
+    let is_rough = spots.iter().any(Spot::is_rough);
+    if is_rough && start.negligible > 0.0 {
+        round.push_and_rub_together();
+    } else {
+        round.push_along_normals();
+        round.scale();
+        if is_rough {
+            round.rub();
+        }
     }
     round.settle_alone();
     round.blows
@@ -184,6 +116,7 @@ struct Round<'a> {
     fastest: f64,
     negligible: f64,
     sweeps: usize,
+    is_glance: bool,
 }
 
 impl<'a> Round<'a> {
@@ -192,7 +125,7 @@ impl<'a> Round<'a> {
         let fastest = rows.iter().map(|row| row.before.abs()).fold(0.0, f64::max);
         let mut blows = vec![Blow::default(); spots.len()];
         for (blow, earlier) in blows.iter_mut().zip(start.blows) {
-            blow.normal = earlier.normal;
+            *blow = if start.negligible > 0.0 { *earlier } else { Blow::smooth(earlier.normal) };
         }
         let velocities = velocities_after(movers, spots, &blows);
         Self {
@@ -204,6 +137,7 @@ impl<'a> Round<'a> {
             fastest,
             negligible: start.negligible,
             sweeps: start.sweeps,
+            is_glance: start.is_glance,
         }
     }
 

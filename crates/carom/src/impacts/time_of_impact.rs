@@ -3,6 +3,7 @@
 //! Here is what two colliders are to each other at an instant: separated, touching, closing, at rest. The search for the instant is
 //! in `time_of_impact/search.rs`.
 
+mod root;
 mod search;
 mod straight;
 

@@ -175,7 +175,8 @@ impl<'a> Events<'a> {
         let Some(approach) = Approach::of(self.bodies, pair.colliders, self.law) else { return answer };
         if pair.rests {
             let kept = self.rest.kept(self.bodies, pair, (self.law, span.from));
-            answer.instant = approach.next_touch(self.pairs, span.from, until, Some(kept));
+            let gap = approach.gap(span.from);
+            answer.instant = approach.next_touch(self.pairs, gap, (span.from, until), Some(kept));
             return answer;
         }
         let gap = approach.gap(span.from);
@@ -184,9 +185,9 @@ impl<'a> Events<'a> {
             return answer;
         }
         answer.instant = if pair.sensor {
-            approach.first_overlap(span.from, until)
+            approach.first_overlap(gap, (span.from, until))
         } else {
-            approach.next_touch(self.pairs, span.from, until, None)
+            approach.next_touch(self.pairs, gap, (span.from, until), None)
         };
         answer
     }

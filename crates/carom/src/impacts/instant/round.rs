@@ -14,7 +14,7 @@ const OF_THE_FASTEST: f64 = 3e-4;
 
 /// So many sweeps are enough to see who pushes; and so many there are at most after that. Where friction slides and sticks by turns
 /// they may not agree by then: what still closes has a round of its own.
-const GLANCE: usize = 8;
+const GLANCE: usize = 4;
 const EFFORT: usize = 100;
 
 impl Instant<'_> {
@@ -25,14 +25,16 @@ impl Instant<'_> {
         loop {
             let round = Cast::of(self, &struck);
             let negligible = self.negligible(&struck, share);
+            let is_glance = negligible > 0.0 && share > NEGLIGIBLE;
             let sweeps = if negligible == 0.0 {
                 usize::MAX
-            } else if share > NEGLIGIBLE {
+            } else if is_glance {
                 GLANCE
             } else {
                 EFFORT
             };
-            let blows = reflect(&round.movers, &round.spots, Start { blows: &earlier, negligible, sweeps });
+            let start = Start { blows: &earlier, negligible, sweeps, is_glance };
+            let blows = reflect(&round.movers, &round.spots, start);
             let after = velocities_after(&round.movers, &round.spots, &blows);
             let moved = |(&mover, after): (&usize, &Velocity)| {
                 (self.movers[mover].velocity != *after).then_some(mover)

@@ -1,8 +1,8 @@
 //! Friction in a round of reflections.
 
-use super::{Round, velocities_after};
+use super::{Blow, Round, velocities_after};
 use crate::fault;
-use crate::impulse::Contact;
+use crate::impulse::{Contact, Velocity};
 use crate::math::DVec3;
 
 /// Sweeps over all contacts, which end when they change no velocity by more than this share of the fastest.
@@ -11,13 +11,24 @@ const AGREEMENT: f64 = 1e-10;
 
 impl Round<'_> {
     /// Adds friction, as much of it as takes energy away and gives none.
-    ///
-    /// From the impulses `j₀` without friction to those with it, `j`, all between them keep to Newton's rule and to the cones, which are
-    /// convex. On the way the energy changes by `a·(d·u₀) + ½a²·(d·Kd)` with `d = j − j₀`; the way ends where this would become positive.
-    /// Where sweeps do not agree, the pushes are found once more, with friction as it is by then.
     pub(super) fn rub(&mut self) {
-        let (smooth, before) = (self.blows.clone(), self.velocities.clone());
-        if !self.sweep((SWEEPS.min(self.sweeps), AGREEMENT), Self::push_and_rub) {
+        let smooth = (self.blows.clone(), self.velocities.clone());
+        self.rub_from(&smooth);
+    }
+
+    /// Pushes and friction together, where nothing bounces: from whatever impulses there are. What comes of that keeps no more energy
+    /// than there was before all of them.
+    pub(super) fn push_and_rub_together(&mut self) {
+        let nothing = vec![Blow::default(); self.spots.len()];
+        let before = self.movers.iter().map(|mover| mover.velocity).collect();
+        self.rub_from(&(nothing, before));
+    }
+
+    /// From the impulses `j₀`, which have led to the velocities with them, to those with friction, `j`, all between them keep to Newton's
+    /// rule and to the cones, which are convex. On the way the energy changes by `a·(d·u₀) + ½a²·(d·Kd)` with `d = j − j₀`; the way ends
+    /// where this would become positive. Where sweeps do not agree, the pushes are found once more, with friction as it is by then.
+    fn rub_from(&mut self, (smooth, before): &(Vec<Blow>, Vec<Velocity>)) {
+        if !self.sweep((SWEEPS.min(self.sweeps), AGREEMENT), Self::push_and_rub) && !self.is_glance {
             self.sweep((SWEEPS.min(self.sweeps), AGREEMENT), Self::push_within_cone);
         }
         let mut is_cut = false;

@@ -1,13 +1,14 @@
 //! The five requirements of Smith et al. (2012), what mixed restitution, friction and ties keep, and that one contact is the seed's.
 
 mod long_rows;
+mod together;
 
 use super::*;
+use crate::impulse::{Contact, resolve};
 use crate::math::DMat3;
-
 use crate::random::Random;
 
-const AT_ONCE: Start<'static> = Start { blows: &[], negligible: 0.0, sweeps: usize::MAX };
+const AT_ONCE: Start<'static> = Start { blows: &[], negligible: 0.0, sweeps: usize::MAX, is_glance: false };
 
 fn ball(mass: f64, velocity: DVec3) -> Mover {
     let moment = 0.1 * mass;

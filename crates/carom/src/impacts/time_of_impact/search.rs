@@ -4,25 +4,50 @@
 //! rate. The search marches from one instant to the next that is safe (*conservative advancement*, Mirtich 1996, ch. 2) or
 //! a small fraction of the thinner body further, whichever is later; a change of sign is then closed in on to rounding.
 
+use super::root::root;
 use super::{Approach, Kept};
 use crate::bodies::{ColliderRow, WORLD_ROW};
+use crate::collide::Gap;
 use crate::fault;
 use crate::flight::fly_center;
+use crate::math::DVec3;
 use crate::step::pairs::Pairs;
 
 /// A pair's own part of the march: a step may go so far into the thinner body, as a fraction of its thickness.
 const BITE: f64 = 0.02;
 
+/// The two at an instant on their paths.
+#[derive(Clone, Copy)]
+struct Look {
+    /// Within the step, s.
+    time: f64,
+    /// m
+    separation: f64,
+    /// A bound on how fast the surfaces approach from then on, m/s.
+    limit: f64,
+}
+
+impl Look {
+    /// Whether the surfaces cannot meet between this look and a later one.
+    fn is_safe_until(&self, later: &Look) -> bool {
+        (later.time - self.time) * self.limit <= self.separation
+    }
+}
+
+/// How fast two colliders approach until some time.
+struct Pace {
+    /// Within the step, s.
+    until: f64,
+    /// A bound whichever way they face each other, and what of it is their bodies' turning, m/s.
+    limit: f64,
+    turning: f64,
+    /// What a step of the march goes on at least, s.
+    least: f64,
+}
+
 impl Approach<'_> {
-    /// A bound on how fast the surfaces approach between `from` and `until`, m/s.
-    fn speed_limit(&self, from: f64, until: f64) -> f64 {
-        let time = until - from;
-        let center = |collider: &ColliderRow| {
-            let (state, row) = (&self.bodies.states[collider.row], collider.row);
-            let (constants, influence) = (&self.bodies.constants[row], &self.bodies.influences[row]);
-            let (_, velocity) = fly_center(state, constants, influence, from - self.bodies.clocks[row]);
-            (velocity, influence.acceleration, constants.linear_damping * velocity.length())
-        };
+    /// How fast the surfaces approach between `from` and `until`.
+    fn pace(&self, from: f64, until: f64) -> Pace {
         let turning = |collider: &ColliderRow| {
             if collider.spin_reach == 0.0 || collider.row == WORLD_ROW {
                 return 0.0;
@@ -32,45 +57,79 @@ impl Approach<'_> {
             let spin = self.bodies.constants[row].spin_limit(state, &self.bodies.influences[row], whole);
             spin * collider.spin_reach
         };
-        let (velocity_a, acceleration_a, braking_a) = center(self.a);
-        let (velocity_b, acceleration_b, braking_b) = center(self.b);
-        (velocity_b - velocity_a).length()
-            + ((acceleration_b - acceleration_a).length() + braking_a + braking_b) * time
-            + turning(self.a)
-            + turning(self.b)
-            + f64::MIN_POSITIVE
+        let turning = turning(self.a) + turning(self.b);
+        let (velocity, acceleration, braking) = self.relative_motion(from);
+        let limit = velocity.length()
+            + (acceleration.length() + braking) * (until - from)
+            + turning
+            + f64::MIN_POSITIVE;
+        Pace { until, limit, turning, least: BITE * self.thinner() / limit }
     }
 
-    /// The first instant from `from` until `until` at which the two touch and close; for a pair that rests, close
-    /// faster than the rest threshold where its contacts have not `kept` the point.
-    pub fn next_touch(&self, pairs: &Pairs, from: f64, until: f64, kept: Option<Kept>) -> Option<f64> {
+    /// Velocity (m/s) and acceleration (m/s²) of the centre of mass of `b` against that of `a` at `time`, and what damping changes
+    /// the velocity by at most, m/s².
+    fn relative_motion(&self, time: f64) -> (DVec3, DVec3, f64) {
+        let center = |collider: &ColliderRow| {
+            let (state, row) = (&self.bodies.states[collider.row], collider.row);
+            let (constants, influence) = (&self.bodies.constants[row], &self.bodies.influences[row]);
+            let (_, velocity) = fly_center(state, constants, influence, time - self.bodies.clocks[row]);
+            (velocity, influence.acceleration, constants.linear_damping * velocity.length())
+        };
+        let (velocity_a, acceleration_a, braking_a) = center(self.a);
+        let (velocity_b, acceleration_b, braking_b) = center(self.b);
+        (velocity_b - velocity_a, acceleration_b - acceleration_a, braking_a + braking_b)
+    }
+
+    fn look(&self, time: f64, pace: &Pace) -> Look {
+        self.look_at(self.gap(time), time, pace)
+    }
+
+    /// The two with this gap at `time`. Convex shapes that are apart along a direction close along it no faster than their centres do
+    /// and their bodies turn; what moves along with the other body, or past it, hardly does.
+    fn look_at(&self, gap: Gap, time: f64, pace: &Pace) -> Look {
+        let separation = gap.separation;
+        let Some(normal) = gap.normal.filter(|_| separation > 0.0) else {
+            return Look { time, separation, limit: pace.limit };
+        };
+        let (velocity, acceleration, braking) = self.relative_motion(time);
+        let faster = (braking - acceleration.dot(normal).min(0.0)) * (pace.until - time);
+        let closing = faster + pace.turning - velocity.dot(normal);
+        Look { time, separation, limit: closing.clamp(f64::MIN_POSITIVE, pace.limit) }
+    }
+
+    /// The first instant at which the two touch and close, after a time at which they had this gap, until another; for a pair that
+    /// rests, close faster than the rest threshold where its contacts have not `kept` the point.
+    pub fn next_touch(
+        &self,
+        pairs: &Pairs,
+        gap: Gap,
+        (from, until): (f64, f64),
+        kept: Option<Kept>,
+    ) -> Option<f64> {
         if fault::lost_collision((self.a.slot, self.b.slot)) {
             return None;
         }
-        let limit = self.speed_limit(from, until);
-        let least = BITE * self.thinner() / limit;
-        let mut now = (from, self.separation(from));
-        let mut before: Option<(f64, f64)> = None;
+        let pace = self.pace(from, until);
+        let mut now = self.look_at(gap, from, &pace);
+        let mut before: Option<Look> = None;
         loop {
-            let (time, separation) = now;
-            let touching = separation <= self.tolerance;
-            if touching && self.touch(pairs, time, kept).is_some() {
+            let touching = now.separation <= self.tolerance;
+            if touching && self.touch(pairs, now.time, kept).is_some() {
                 return Some(match before {
-                    Some((earlier, _)) => self.first_closing(pairs, (earlier, time), limit, kept),
-                    None => time,
+                    Some(earlier) => self.first_closing(pairs, (earlier.time, now.time), pace.limit, kept),
+                    None => now.time,
                 });
             }
-            if time >= until || separation - limit * (until - time) > self.tolerance {
+            if self.stay_apart(&now, &pace, self.tolerance) {
                 return None;
             }
-            let next_time = (time + least.max(separation / limit)).min(until);
-            let next = (next_time, self.separation(next_time));
+            let next = self.march(&now, &pace);
             let crossing = if touching {
                 None
-            } else if next.1 <= 0.0 {
-                Some(self.root(now, next))
+            } else if next.separation <= 0.0 {
+                Some(self.root(&now, &next))
             } else {
-                before.and_then(|before| self.dip([before, now, next], limit))
+                before.and_then(|before| self.dip([&before, &now, &next], &pace))
             };
             if let Some(instant) = crossing
                 && self.touch(pairs, instant, kept).is_some()
@@ -82,30 +141,38 @@ impl Approach<'_> {
         }
     }
 
-    /// The first instant from `from` until `until` at which the two touch or overlap.
-    pub fn first_overlap(&self, from: f64, until: f64) -> Option<f64> {
-        let limit = self.speed_limit(from, until);
-        let least = BITE * self.thinner() / limit;
-        let mut now = (from, self.separation(from));
-        let mut before: Option<(f64, f64)> = None;
+    /// The first instant at which the two touch or overlap, after a time at which they had this gap, until another.
+    pub fn first_overlap(&self, gap: Gap, (from, until): (f64, f64)) -> Option<f64> {
+        let pace = self.pace(from, until);
+        let mut now = self.look_at(gap, from, &pace);
+        let mut before: Option<Look> = None;
         loop {
-            let (time, separation) = now;
-            if separation <= 0.0 {
-                return Some(before.map_or(time, |earlier| self.root(earlier, now)));
+            if now.separation <= 0.0 {
+                return Some(before.map_or(now.time, |earlier| self.root(&earlier, &now)));
             }
-            if time >= until || separation - limit * (until - time) > 0.0 {
+            if self.stay_apart(&now, &pace, 0.0) {
                 return None;
             }
-            let next_time = (time + least.max(separation / limit)).min(until);
-            let next = (next_time, self.separation(next_time));
-            if next.1 > 0.0
-                && let Some(instant) = before.and_then(|before| self.dip([before, now, next], limit))
+            let next = self.march(&now, &pace);
+            if next.separation > 0.0
+                && let Some(instant) = before.and_then(|before| self.dip([&before, &now, &next], &pace))
             {
                 return Some(instant);
             }
             before = Some(now);
             now = next;
         }
+    }
+
+    /// Whether nothing is left to look for: the two stay more than `tolerance` (m) apart, or the time is over.
+    fn stay_apart(&self, now: &Look, pace: &Pace, tolerance: f64) -> bool {
+        now.time >= pace.until || now.separation - now.limit * (pace.until - now.time) > tolerance
+    }
+
+    /// The next look: as far ahead as is safe, or a little further.
+    fn march(&self, now: &Look, pace: &Pace) -> Look {
+        let ahead = pace.least.max(now.separation / now.limit);
+        self.look((now.time + ahead).min(pace.until), pace)
     }
 
     fn thinner(&self) -> f64 {
@@ -118,49 +185,29 @@ impl Approach<'_> {
     }
 
     /// The instant between `apart` (separation above 0) and `over` (0 or below) at which the separation vanishes.
-    ///
-    /// False position with the Illinois rule (Dowell and Jarratt 1971), a bisection every fourth time.
-    fn root(&self, apart: (f64, f64), over: (f64, f64)) -> f64 {
-        let (mut low, mut low_value) = apart;
-        let (mut high, mut high_value) = over;
-        for iteration in 0..80 {
-            if high - low <= f64::EPSILON * high {
-                break;
-            }
-            let fraction = if iteration % 4 == 3 { 0.5 } else { low_value / (low_value - high_value) };
-            let middle = low + fraction.clamp(0.0, 1.0) * (high - low);
-            let value = self.separation(middle);
-            if value.abs() <= 0.01 * self.tolerance {
-                return middle;
-            }
-            if value > 0.0 {
-                (low, low_value) = (middle, value);
-                high_value *= 0.5;
-            } else {
-                (high, high_value) = (middle, value);
-                low_value *= 0.5;
-            }
-        }
-        high
+    fn root(&self, apart: &Look, over: &Look) -> f64 {
+        let ends = [apart, over].map(|look| (look.time, look.separation));
+        root(|time| self.separation(time), ends, 0.01 * self.tolerance)
     }
 
     /// Where the separation vanishes between three instants of which the middle one is lowest, if a step was longer than
     /// was safe and it does vanish: a graze.
-    fn dip(&self, [before, now, after]: [(f64, f64); 3], limit: f64) -> Option<f64> {
-        let safe = |from: (f64, f64), to: (f64, f64)| (to.0 - from.0) * limit <= from.1;
-        if now.1 >= before.1 || now.1 > after.1 || (safe(before, now) && safe(now, after)) {
+    fn dip(&self, [before, now, after]: [&Look; 3], pace: &Pace) -> Option<f64> {
+        if now.separation >= before.separation
+            || now.separation > after.separation
+            || (before.is_safe_until(now) && now.is_safe_until(after))
+        {
             return None;
         }
-        let (mut low, mut high) = (before.0, after.0);
+        let (mut low, mut high) = (before.time, after.time);
         for _ in 0..24 {
             let third = 0.382 * (high - low);
-            let (left, right) = (low + third, high - third);
-            let (at_left, at_right) = (self.separation(left), self.separation(right));
-            let lowest = if at_left < at_right { (left, at_left) } else { (right, at_right) };
-            if lowest.1 <= 0.0 {
-                return Some(self.root(if lowest.0 > now.0 { now } else { before }, lowest));
+            let (left, right) = (self.look(low + third, pace), self.look(high - third, pace));
+            let lowest = if left.separation < right.separation { left } else { right };
+            if lowest.separation <= 0.0 {
+                return Some(self.root(if lowest.time > now.time { now } else { before }, &lowest));
             }
-            if at_left < at_right { high = right } else { low = left }
+            if left.separation < right.separation { high = right.time } else { low = left.time }
         }
         None
     }

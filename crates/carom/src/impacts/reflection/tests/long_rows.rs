@@ -13,7 +13,11 @@ fn what_is_struck_with_friction_in_a_long_row_closes_no_more() {
         ..spot
     };
     let spots: Vec<Spot> = (1..40).map(|index| rough(between([index - 1, index], DVec3::X, 0.0))).collect();
-    let blows = reflect(&movers, &spots, Start { blows: &[], negligible: 1e-9, sweeps: usize::MAX });
+    let blows = reflect(
+        &movers,
+        &spots,
+        Start { blows: &[], negligible: 1e-9, sweeps: usize::MAX, is_glance: false },
+    );
     let after = velocities_after(&movers, &spots, &blows);
     let slowest = spots
         .iter()
@@ -31,7 +35,7 @@ fn sweeps_that_make_haste_come_to_the_same_velocities_sooner() {
         .collect();
     let spots: Vec<Spot> = (1..40).map(|index| between([index - 1, index], DVec3::X, 0.0)).collect();
     let after = |sweeps, negligible| {
-        let blows = reflect(&movers, &spots, Start { blows: &[], negligible, sweeps });
+        let blows = reflect(&movers, &spots, Start { blows: &[], negligible, sweeps, is_glance: false });
         velocities_after(&movers, &spots, &blows)
     };
     // All stick together: momentum tells how fast they are.

@@ -64,7 +64,7 @@ fn closed_forms_and_the_search_find_the_same_touches() {
     for _ in 0..4000 {
         let world = world_of(anything(&mut random));
         let approach = approach(&world);
-        let found = approach.next_touch(&world.pairs, 0.0, STEP, None);
+        let found = approach.next_touch(&world.pairs, approach.gap(0.0), (0.0, STEP), None);
         let Some(outlook) = outlook_of(&world) else {
             unclear += 1;
             continue;
