@@ -5,14 +5,13 @@ use crate::height_field::HeightField;
 use crate::math::DVec3;
 use crate::mesh::Mesh;
 use crate::shape::Shape;
-use parry3d_f64::bounding_volume::Aabb;
 
 /// A surface of numbered triangles, all in its own frame.
 pub(super) trait Triangles {
     /// The box around them: lowest and highest corner, m.
     fn bounds(&self) -> (DVec3, DVec3);
 
-    /// Those with an area whose boxes meet the box from `low` to `high`, in order.
+    /// Those with an area whose boxes meet the box from `low` to `high`, and maybe some whose boxes nearly do, in order.
     fn within(&self, low: DVec3, high: DVec3) -> Vec<u32>;
 
     /// The corners of a triangle, m.
@@ -48,11 +47,7 @@ impl Triangles for Mesh {
     }
 
     fn within(&self, low: DVec3, high: DVec3) -> Vec<u32> {
-        let search = Aabb::new(low, high);
-        let mut found: Vec<u32> =
-            self.tree().intersect_aabb(&search).filter(|&index| self.has_area(index)).collect();
-        found.sort_unstable();
-        found
+        self.within(low, high)
     }
 
     fn corners(&self, triangle: u32) -> [DVec3; 3] {
