@@ -48,8 +48,8 @@ impl Mesh {
             return Err(Invalid::new("triangles", found, "at least one triangle with an area"));
         }
         let bounds = |triangle: u32| {
-            let [a, b, c] = triangles[triangle as usize].map(|index| vertices[index as usize]);
-            (triangle, (a.min(b).min(c), a.max(b).max(c)))
+            let corners = triangles[triangle as usize].map(|index| vertices[index as usize]);
+            (triangle, bounds_of(corners))
         };
         let has_area = |&triangle: &u32| !normals[triangle as usize].is_nan();
         let tree = Tree::new((0..triangles.len() as u32).filter(has_area).map(bounds));
@@ -86,15 +86,28 @@ impl Mesh {
         self.neighbours[triangle as usize]
     }
 
-    /// The triangles with an area whose boxes meet the box from `low` to `high` (m), and maybe some whose boxes nearly do, in order.
+    /// The triangles with an area whose boxes meet the box from `low` to `high` (m), in order.
     pub(crate) fn within(&self, low: DVec3, high: DVec3) -> Vec<u32> {
-        self.tree.within(low, high)
+        let mut found = Vec::with_capacity(16);
+        self.tree.visit(low, high, |triangle| {
+            let (least, most) = bounds_of(self.corners(triangle));
+            if least.cmple(high).all() && most.cmpge(low).all() {
+                found.push(triangle);
+            }
+        });
+        found.sort_unstable();
+        found
     }
 
     /// The box around its triangles: lowest and highest corner, m.
     pub(crate) fn bounds(&self) -> (DVec3, DVec3) {
         (self.low, self.high)
     }
+}
+
+/// The box around a triangle: lowest and highest corner, m.
+fn bounds_of([a, b, c]: [DVec3; 3]) -> (DVec3, DVec3) {
+    (a.min(b).min(c), a.max(b).max(c))
 }
 
 /// Refuses points that are not finite or lie further out than the largest length.

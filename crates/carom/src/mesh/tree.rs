@@ -41,24 +41,22 @@ impl Tree {
         tree
     }
 
-    /// The triangles whose boxes meet the box from `low` to `high` (m), and maybe some whose boxes nearly do, in order.
-    pub fn within(&self, low: DVec3, high: DVec3) -> Vec<u32> {
-        let mut found = Vec::with_capacity(2 * WIDTH);
-        self.visit(self.nodes.len() - 1, &Query::new(Local::new((low, high), self.origin)), &mut found);
-        found.sort_unstable();
-        found
+    /// Tells the triangles whose boxes meet the box from `low` to `high` (m), and maybe some whose boxes nearly do.
+    pub fn visit(&self, low: DVec3, high: DVec3, mut found: impl FnMut(u32)) {
+        let query = Query::new(Local::new((low, high), self.origin));
+        self.visit_below(self.nodes.len() - 1, &query, &mut found);
     }
 
-    fn visit(&self, node: usize, query: &Query, found: &mut Vec<u32>) {
+    fn visit_below(&self, node: usize, query: &Query, found: &mut impl FnMut(u32)) {
         let node = &self.nodes[node];
         let mut meeting = node.boxes.meeting(query, node.count);
         while meeting != 0 {
             let child = node.children[meeting.trailing_zeros() as usize];
             meeting &= meeting - 1;
             if node.holds_triangles {
-                found.push(child);
+                found(child);
             } else {
-                self.visit(child as usize, query, found);
+                self.visit_below(child as usize, query, found);
             }
         }
     }
@@ -107,6 +105,13 @@ mod tests {
     use super::*;
     use crate::random::Random;
 
+    fn found(tree: &Tree, low: DVec3, high: DVec3) -> Vec<u32> {
+        let mut found = Vec::new();
+        tree.visit(low, high, |triangle| found.push(triangle));
+        found.sort_unstable();
+        found
+    }
+
     #[test]
     fn a_search_finds_what_a_look_at_all_boxes_does() {
         let mut random = Random(7);
@@ -123,9 +128,9 @@ mod tests {
                 let (low, high) = (middle - half, middle + half);
                 let meets = |bounds: &(DVec3, DVec3)| bounds.0.cmple(high).all() && bounds.1.cmpge(low).all();
                 let expected: Vec<u32> = (0..count as u32).filter(|&it| meets(&boxes[it as usize])).collect();
-                assert_eq!(tree.within(low, high), expected, "of {count} boxes");
+                assert_eq!(found(&tree, low, high), expected, "of {count} boxes");
             }
-            let everything = tree.within(DVec3::NEG_INFINITY, DVec3::INFINITY);
+            let everything = found(&tree, DVec3::NEG_INFINITY, DVec3::INFINITY);
             assert_eq!(everything, (0..count as u32).collect::<Vec<_>>());
         }
     }

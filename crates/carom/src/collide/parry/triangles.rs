@@ -11,7 +11,7 @@ pub(super) trait Triangles {
     /// The box around them: lowest and highest corner, m.
     fn bounds(&self) -> (DVec3, DVec3);
 
-    /// Those with an area whose boxes meet the box from `low` to `high`, and maybe some whose boxes nearly do, in order.
+    /// Those with an area whose boxes meet the box from `low` to `high`, in order.
     fn within(&self, low: DVec3, high: DVec3) -> Vec<u32>;
 
     /// The corners of a triangle, m.
