@@ -73,14 +73,8 @@ impl Farthest for Facet {
 }
 
 impl Facet {
-    /// `None` where rounding leaves no direction at right angles to it.
-    pub fn new(corners: [DVec3; 3]) -> Option<Self> {
-        let [a, b, c] = corners;
-        Self::with_normal(corners, (b - a).cross(c - a).normalize_or_zero())
-    }
-
-    /// The same for a known direction, around which the corners run anticlockwise.
-    pub fn with_normal(corners: [DVec3; 3], normal: DVec3) -> Option<Self> {
+    /// Of a direction at right angles to it around which its corners run anticlockwise; `None` where rounding leaves none.
+    pub fn new(corners: [DVec3; 3], normal: DVec3) -> Option<Self> {
         let [a, b, c] = corners;
         let size = 0.5 * (a.max(b).max(c) - a.min(b).min(c)).max_element();
         (normal != DVec3::ZERO).then_some(Self { corners, normal, size })
@@ -126,13 +120,16 @@ impl Facet {
         [Some(self.normal_towards(middle)), (middle - self.closest_to(middle)).try_normalize()]
     }
 
-    /// A gap (m) that the distance from a core is no less than, at the price of a few points.
-    pub fn gap_at_least(&self, form: &Form) -> f64 {
+    /// A gap (m) that the distance from a core is no less than, at the price of a few points; one beyond `limit` will do.
+    pub fn gap_at_least(&self, form: &Form, limit: f64) -> f64 {
         match form {
             Form::Point(point) => self.closest_to(*point).distance(*point),
             Form::Segment(core) => {
                 let reach = core.half.dot(self.normal).abs();
                 let over = self.height(core.center).abs() - reach;
+                if over > limit {
+                    return over;
+                }
                 let way = core.center - self.closest_to(core.center);
                 over.max(self.gap_towards(way, |way| core.center.dot(way) - core.half.dot(way).abs()))
             }
@@ -140,6 +137,9 @@ impl Facet {
                 let middle = solid.place(solid.shape.middle);
                 let own = self.normal_towards(middle);
                 let over = (solid.farthest(-own).1 - self.corners[0]).dot(own);
+                if over > limit {
+                    return over;
+                }
                 let way = middle - self.closest_to(middle);
                 over.max(self.gap_towards(way, |way| solid.farthest(-way).1.dot(way)))
             }

@@ -17,9 +17,16 @@ pub(super) trait Triangles {
     /// The corners of a triangle, m.
     fn corners(&self, triangle: u32) -> [DVec3; 3];
 
-    /// A triangle for its kernels; none where rounding leaves no direction at right angles to it.
+    /// The direction at right angles to a triangle around which its corners run anticlockwise, unit length; zero where rounding
+    /// leaves none.
+    fn normal(&self, triangle: u32) -> DVec3 {
+        let [a, b, c] = self.corners(triangle);
+        (b - a).cross(c - a).normalize_or_zero()
+    }
+
+    /// A triangle for its kernels; none where it has no normal.
     fn facet(&self, triangle: u32) -> Option<Facet> {
-        Facet::new(self.corners(triangle))
+        Facet::new(self.corners(triangle), self.normal(triangle))
     }
 
     /// The numbers of its corners.
@@ -54,8 +61,8 @@ impl Triangles for Mesh {
         self.corners(triangle)
     }
 
-    fn facet(&self, triangle: u32) -> Option<Facet> {
-        Facet::with_normal(self.corners(triangle), self.normal(triangle))
+    fn normal(&self, triangle: u32) -> DVec3 {
+        self.normal(triangle)
     }
 
     fn corner_numbers(&self, triangle: u32) -> [u32; 3] {
