@@ -72,7 +72,8 @@ impl Mesh {
 
     /// The corners of a triangle, m.
     pub(crate) fn corners(&self, triangle: u32) -> [DVec3; 3] {
-        self.triangles[triangle as usize].map(|index| self.vertices[index as usize])
+        let [a, b, c] = self.triangles[triangle as usize];
+        [self.vertices[a as usize], self.vertices[b as usize], self.vertices[c as usize]]
     }
 
     /// The direction at right angles to a triangle around which its corners run anticlockwise, unit length; zero where rounding

@@ -27,18 +27,18 @@ use clip::Candidates;
 use convex::{Convex, Core};
 use facet::Form;
 pub(crate) use sides::{Wanted, lies_beyond_a_side};
-use triangles::{Triangles, triangles_of};
+use triangles::Triangles;
 
 /// A shape as this seam sees it.
 enum Kind<'a> {
     Convex(Convex<'a>),
-    Surface(&'a dyn Triangles),
+    Surface(Triangles<'a>),
     Plane,
 }
 
 impl<'a> Kind<'a> {
     fn of(shape: &'a Shape) -> Self {
-        match (Convex::of(shape), triangles_of(shape)) {
+        match (Convex::of(shape), Triangles::of(shape)) {
             (Some(convex), _) => Kind::Convex(convex),
             (None, Some(surface)) => Kind::Surface(surface),
             (None, None) => Kind::Plane,

@@ -130,8 +130,7 @@ impl Facet {
                 if over > limit {
                     return over;
                 }
-                let way = core.center - self.closest_to(core.center);
-                over.max(self.gap_towards(way, |way| core.center.dot(way) - core.half.dot(way).abs()))
+                over.max(self.gap_beside(core))
             }
             Form::Solid(solid) => {
                 let middle = solid.place(solid.shape.middle);
@@ -144,6 +143,12 @@ impl Facet {
                 over.max(self.gap_towards(way, |way| solid.farthest(-way).1.dot(way)))
             }
         }
+    }
+
+    /// The gap to a core along the way to its middle.
+    fn gap_beside(&self, core: &Segment) -> f64 {
+        let way = core.center - self.closest_to(core.center);
+        self.gap_towards(way, |way| core.center.dot(way) - core.half.dot(way).abs())
     }
 
     /// The gap along a way of any length; `lowest` tells how far the other one reaches against it.
@@ -166,6 +171,10 @@ impl Facet {
     }
 
     fn to_point(&self, point: DVec3, limit: f64) -> Option<Axis> {
+        let height = self.height(point).abs();
+        if height > limit {
+            return None;
+        }
         let on_a = self.closest_to(point);
         let offset = point - on_a;
         let distance = offset.length();
@@ -173,7 +182,6 @@ impl Facet {
             return None;
         }
         let own = self.normal_towards(point);
-        let height = self.height(point).abs();
         Some(if height >= distance - ROUNDING * self.size {
             Axis { normal: own, gap: height, on_a, on_b: point }
         } else {
@@ -189,6 +197,9 @@ impl Facet {
         }
         if own.gap >= 0.0 && self.is_over(own.on_b) {
             return Some(own);
+        }
+        if limit < f64::MAX && self.gap_beside(core) > limit {
+            return None;
         }
         let size = self.size + core.half.abs().max_element();
         let pairs = [0, 1, 2].map(|side| {

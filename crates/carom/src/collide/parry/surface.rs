@@ -6,7 +6,7 @@ use super::axis::Axis;
 use super::clip::Candidates;
 use super::convex::{Convex, Core};
 use super::facet::Form;
-use super::triangles::{Triangles, triangles_of};
+use super::triangles::Triangles;
 use super::{Beside, OnSurface, axis, convex_manifold};
 use crate::collide::{ContactPoint, Manifold};
 use crate::math::{DVec3, Pose};
@@ -14,20 +14,20 @@ use crate::report::Feature;
 use crate::shape::Shape;
 use normal::surface_normal;
 
-pub(super) fn triangle_core(surface: &dyn Triangles, index: u32) -> Convex<'static> {
+pub(super) fn triangle_core(surface: Triangles, index: u32) -> Convex<'static> {
     let (corners, vertices) = (surface.corners(index), surface.corner_numbers(index));
     Convex { core: Core::Triangle { corners, index, vertices }, radius: 0.0 }
 }
 
 /// The triangles whose boxes come within `margin` of the box from `low` to `high` (the surface's frame), by number.
-fn nearby(surface: &dyn Triangles, low: DVec3, high: DVec3, margin: f64) -> Vec<u32> {
+fn nearby(surface: Triangles, low: DVec3, high: DVec3, margin: f64) -> Vec<u32> {
     let grown = DVec3::splat(margin.max(0.0));
     surface.within(low - grown, high + grown)
 }
 
 /// A gap (m) between a triangle and a convex shape that their distance is no less than: the widest along a few
 /// directions, at the price of a few support points; one beyond `limit` will do.
-fn gap_at_least(surface: &dyn Triangles, index: u32, beside: &Beside, limit: f64) -> f64 {
+fn gap_at_least(surface: Triangles, index: u32, beside: &Beside, limit: f64) -> f64 {
     let Some(facet) = surface.facet(index) else { return f64::NEG_INFINITY };
     let gap = match beside.form {
         Some(form) => facet.gap_at_least(form, limit + beside.convex.radius),
@@ -42,7 +42,7 @@ fn gap_at_least(surface: &dyn Triangles, index: u32, beside: &Beside, limit: f64
 }
 
 /// The axis of the largest gap between a triangle and the core of a convex shape, if that shape comes within `margin`.
-fn gap_within(surface: &dyn Triangles, index: u32, beside: &Beside, margin: f64) -> Option<Axis> {
+fn gap_within(surface: Triangles, index: u32, beside: &Beside, margin: f64) -> Option<Axis> {
     let radius = beside.convex.radius;
     match beside.form.and_then(|form| Some((form, surface.facet(index)?))) {
         Some((form, facet)) => {
@@ -60,7 +60,7 @@ fn gap_within(surface: &dyn Triangles, index: u32, beside: &Beside, margin: f64)
 }
 
 /// The least separation of any triangle from `other`, which is no plane.
-pub(super) fn separation(surface: &dyn Triangles, pose: &Pose, other: &Shape, other_pose: &Pose) -> f64 {
+pub(super) fn separation(surface: Triangles, pose: &Pose, other: &Shape, other_pose: &Pose) -> f64 {
     let inner = pose.relative(other_pose);
     let (low, high) = other.bounds(&inner);
     let (surface_low, surface_high) = surface.bounds();
@@ -83,14 +83,14 @@ pub(super) fn separation(surface: &dyn Triangles, pose: &Pose, other: &Shape, ot
 /// The least separation of the triangles of `surface` from `other`, which lies between `low` and `high` in the surface's
 /// frame, if it is below `horizon` (m); else that.
 fn separation_within(
-    (surface, pose): (&dyn Triangles, &Pose),
+    (surface, pose): (Triangles, &Pose),
     (other, other_pose): (&Shape, &Pose),
     (low, high): (DVec3, DVec3),
     horizon: f64,
 ) -> f64 {
     let near = nearby(surface, low, high, horizon);
     let inner = pose.relative(other_pose);
-    match (Convex::of(other), triangles_of(other)) {
+    match (Convex::of(other), Triangles::of(other)) {
         (Some(convex), _) => Form::with(&convex.core, &inner, |form| {
             least_separation(surface, near, &Beside { convex: &convex, inner, form }, horizon)
         }),
@@ -114,7 +114,7 @@ fn separation_within(
 
 /// The least separation of the triangles `near` from a convex shape, if it is below `least`. What is sure to be no
 /// closer than something else is not measured: likely ones go first.
-fn least_separation(surface: &dyn Triangles, near: Vec<u32>, beside: &Beside, least: f64) -> f64 {
+fn least_separation(surface: Triangles, near: Vec<u32>, beside: &Beside, least: f64) -> f64 {
     // Of those that overlap the shortest way out is known only once it is measured.
     let limit = least.max(0.0);
     let bound = |index: u32| gap_at_least(surface, index, beside, limit);
@@ -135,7 +135,7 @@ fn least_separation(surface: &dyn Triangles, near: Vec<u32>, beside: &Beside, le
 
 /// One manifold for each triangle that is struck; the surface goes first.
 pub(super) fn manifolds(
-    surface: &dyn Triangles,
+    surface: Triangles,
     pose: &Pose,
     other: (&Shape, &Pose),
     margin: f64,
@@ -143,7 +143,7 @@ pub(super) fn manifolds(
 ) {
     let (low, high) = other.0.bounds(&pose.relative(other.1));
     let near = nearby(surface, low, high, margin);
-    match (Convex::of(other.0), triangles_of(other.0)) {
+    match (Convex::of(other.0), Triangles::of(other.0)) {
         (Some(convex), _) => {
             let inner = pose.relative(other.1);
             Form::with(&convex.core, &inner, |form| {
@@ -168,7 +168,7 @@ pub(super) fn manifolds(
 /// Where their corrections leave nothing of a touch (on a tip between ridges and valleys, or deep in a border), the triangle
 /// that is deepest in has it along its own shortest way out.
 fn convex_manifolds(
-    (surface, pose): (&dyn Triangles, &Pose),
+    (surface, pose): (Triangles, &Pose),
     beside: &Beside,
     near: &[u32],
     margin: f64,
@@ -201,8 +201,8 @@ fn convex_manifolds(
 
 /// The manifolds of the triangles `near` with those of another surface, each by its own shortest way out.
 fn surface_manifolds(
-    (surface, pose): (&dyn Triangles, &Pose),
-    (other, other_pose): (&dyn Triangles, &Pose),
+    (surface, pose): (Triangles, &Pose),
+    (other, other_pose): (Triangles, &Pose),
     near: &[u32],
     margin: f64,
     out: &mut Vec<Manifold>,
@@ -225,31 +225,26 @@ fn surface_manifolds(
     }
 }
 
-fn triangle_bounds(surface: &dyn Triangles, index: u32, pose: &Pose) -> (DVec3, DVec3) {
+fn triangle_bounds(surface: Triangles, index: u32, pose: &Pose) -> (DVec3, DVec3) {
     let corners = surface.corners(index).map(|corner| pose.transform_point(corner));
     (corners[0].min(corners[1]).min(corners[2]), corners[0].max(corners[1]).max(corners[2]))
 }
 
 /// Height (m) of the lowest corner above the plane.
-pub(super) fn plane_separation(plane: &Pose, surface: &dyn Triangles, pose: &Pose) -> f64 {
+pub(super) fn plane_separation(plane: &Pose, surface: Triangles, pose: &Pose) -> f64 {
     let up = plane.rotation * DVec3::Y;
     let mut lowest = f64::INFINITY;
-    surface.visit_corners(&mut |corner, _| {
+    surface.visit_corners(|corner, _| {
         lowest = lowest.min((pose.transform_point(corner) - plane.position).dot(up));
     });
     lowest
 }
 
 /// The plane goes first: the normal is the plane's own.
-pub(super) fn plane_manifold(
-    plane: &Pose,
-    surface: &dyn Triangles,
-    pose: &Pose,
-    margin: f64,
-) -> Option<Manifold> {
+pub(super) fn plane_manifold(plane: &Pose, surface: Triangles, pose: &Pose, margin: f64) -> Option<Manifold> {
     let up = plane.rotation * DVec3::Y;
     let mut candidates = Candidates::new(margin);
-    surface.visit_corners(&mut |corner, vertex| {
+    surface.visit_corners(|corner, vertex| {
         let corner = pose.transform_point(corner);
         let separation = (corner - plane.position).dot(up);
         let point = corner - up * (0.5 * separation);

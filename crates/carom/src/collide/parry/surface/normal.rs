@@ -10,7 +10,7 @@ use crate::math::DVec3;
 /// the neighbour: a box sliding over a floor of triangles would trip on their seams. Where the neighbour goes on flat
 /// or rises, nothing of the normal may lead over that side; where it falls away, the neighbour's own normal is the
 /// steepest. At a border all are true. All in the surface's frame; `middle` lies inside the other shape.
-pub(super) fn surface_normal(surface: &dyn Triangles, index: u32, normal: DVec3, middle: DVec3) -> DVec3 {
+pub(super) fn surface_normal(surface: Triangles, index: u32, normal: DVec3, middle: DVec3) -> DVec3 {
     const FLAT: f64 = 1e-6;
     const ROUNDING: f64 = 1e-12;
     let corners = surface.corners(index);
