@@ -1,9 +1,9 @@
 //! parry finds the same, and so does a look along many directions.
 
 use super::super::axis;
-use super::super::convex::Convex;
+use super::super::convex::{Convex, Core};
 use super::*;
-use crate::math::{DQuat, rotation_from_vector};
+use crate::math::{DQuat, Pose, rotation_from_vector};
 use crate::shape::Shape;
 use std::f64::consts::FRAC_PI_4;
 
