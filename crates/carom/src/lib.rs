@@ -39,6 +39,7 @@ pub mod impulse;
 
 // The world, and one step of it.
 mod bodies;
+mod boxes;
 mod commands;
 mod step;
 mod world;

@@ -1,9 +1,10 @@
 //! Surfaces of triangles.
 
+mod tree;
+
 use crate::error::{Invalid, limits};
 use crate::math::DVec3;
-use parry3d_f64::partitioning::Bvh;
-use parry3d_f64::shape::TriMesh;
+use tree::Tree;
 
 /// A surface of triangles, solid from both sides.
 #[derive(Clone, Debug)]
@@ -15,7 +16,7 @@ pub struct Mesh {
     /// At right angles to each triangle, unit length, its corners anticlockwise around it; zero where rounding leaves none, not
     /// a number where there is no area.
     normals: Vec<DVec3>,
-    tree: TriMesh,
+    tree: Tree,
     low: DVec3,
     high: DVec3,
 }
@@ -46,8 +47,12 @@ impl Mesh {
             let found = format!("{} triangles without area", triangles.len());
             return Err(Invalid::new("triangles", found, "at least one triangle with an area"));
         }
-        let refused = || Invalid::new("triangles", triangles.len(), "at least one triangle");
-        let tree = TriMesh::new(vertices.clone(), triangles.clone()).map_err(|_| refused())?;
+        let bounds = |triangle: u32| {
+            let corners = triangles[triangle as usize].map(|index| vertices[index as usize]);
+            (triangle, bounds_of(corners))
+        };
+        let has_area = |&triangle: &u32| !normals[triangle as usize].is_nan();
+        let tree = Tree::new((0..triangles.len() as u32).filter(has_area).map(bounds));
         let neighbours = neighbours_of(&vertices, &triangles);
         let used = || triangles.iter().flatten().map(|&index| vertices[index as usize]);
         let low = used().fold(DVec3::INFINITY, DVec3::min);
@@ -67,7 +72,8 @@ impl Mesh {
 
     /// The corners of a triangle, m.
     pub(crate) fn corners(&self, triangle: u32) -> [DVec3; 3] {
-        self.triangles[triangle as usize].map(|index| self.vertices[index as usize])
+        let [a, b, c] = self.triangles[triangle as usize];
+        [self.vertices[a as usize], self.vertices[b as usize], self.vertices[c as usize]]
     }
 
     /// The direction at right angles to a triangle around which its corners run anticlockwise, unit length; zero where rounding
@@ -76,25 +82,33 @@ impl Mesh {
         self.normals[triangle as usize]
     }
 
-    /// Whether there is a triangle of that number, and it has an area.
-    pub(crate) fn has_area(&self, triangle: u32) -> bool {
-        self.normals.get(triangle as usize).is_some_and(|normal| !normal.is_nan())
-    }
-
     /// The triangles beyond the sides 0→1, 1→2, 2→0 of a triangle.
     pub(crate) fn neighbours(&self, triangle: u32) -> [Option<u32>; 3] {
         self.neighbours[triangle as usize]
     }
 
-    /// The tree of boxes around its triangles.
-    pub(crate) fn tree(&self) -> &Bvh {
-        self.tree.bvh()
+    /// The triangles with an area whose boxes meet the box from `low` to `high` (m), in order.
+    pub(crate) fn within(&self, low: DVec3, high: DVec3) -> Vec<u32> {
+        let mut found = Vec::with_capacity(16);
+        self.tree.visit(low, high, |triangle| {
+            let (least, most) = bounds_of(self.corners(triangle));
+            if least.cmple(high).all() && most.cmpge(low).all() {
+                found.push(triangle);
+            }
+        });
+        found.sort_unstable();
+        found
     }
 
     /// The box around its triangles: lowest and highest corner, m.
     pub(crate) fn bounds(&self) -> (DVec3, DVec3) {
         (self.low, self.high)
     }
+}
+
+/// The box around a triangle: lowest and highest corner, m.
+fn bounds_of([a, b, c]: [DVec3; 3]) -> (DVec3, DVec3) {
+    (a.min(b).min(c), a.max(b).max(c))
 }
 
 /// Refuses points that are not finite or lie further out than the largest length.

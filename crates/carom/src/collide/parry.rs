@@ -27,18 +27,18 @@ use clip::Candidates;
 use convex::{Convex, Core};
 use facet::Form;
 pub(crate) use sides::{Wanted, lies_beyond_a_side};
-use triangles::{Triangles, triangles_of};
+use triangles::Triangles;
 
 /// A shape as this seam sees it.
 enum Kind<'a> {
     Convex(Convex<'a>),
-    Surface(&'a dyn Triangles),
+    Surface(Triangles<'a>),
     Plane,
 }
 
 impl<'a> Kind<'a> {
     fn of(shape: &'a Shape) -> Self {
-        match (Convex::of(shape), triangles_of(shape)) {
+        match (Convex::of(shape), Triangles::of(shape)) {
             (Some(convex), _) => Kind::Convex(convex),
             (None, Some(surface)) => Kind::Surface(surface),
             (None, None) => Kind::Plane,
@@ -132,6 +132,8 @@ struct OnSurface<'a> {
     /// The normal that the surface allows, in the triangle's frame, in place of the one that the two shapes alone
     /// would give. Where it is another, only points where the two sides face each other along it count.
     correct: &'a dyn Fn(DVec3) -> DVec3,
+    /// At right angles to the triangle, in its frame.
+    own: DVec3,
     /// What other triangles of the surface have given already: a point on a shared side is not given twice.
     known: &'a [Manifold],
 }
@@ -174,8 +176,8 @@ fn convex_manifold(
     // through that shape. Such a way is none; another triangle has the contact.
     // Nor is one that leads sideways over a border: the normal is then no triangle's own.
     if corrected {
-        let own = |core: &Core| core.flat_directions().into_iter().any(|own| own.dot(normal) > 1.0 - 1e-9);
-        let detour = if own(&convex_a.core) { 0.1 } else { 1e-3 };
+        let is_own = surface.is_some_and(|surface| surface.own.dot(normal).abs() > 1.0 - 1e-9);
+        let detour = if is_own { 0.1 } else { 1e-3 };
         if candidates.least_separation() < least.gap - radii - detour * size {
             return None;
         }

@@ -1,27 +1,34 @@
 //! Where two sides face each other: one outline cut to the other, and the best four of the points this leaves.
 
-use super::convex::{CORNERS, Convex, Corner, Outline};
+mod knife;
+
+use super::convex::{Convex, Corner, Outline};
 use crate::collide::{ContactPoint, Manifold};
 use crate::math::{DVec3, Pose, any_tangent};
 use crate::report::Feature;
+use knife::{Cut, Knife, Room, Side};
+
+/// Most outlines that are cut have no more corners.
+const FEW: usize = 8;
 
 /// Points that may go into a manifold: those within a margin.
 pub(super) struct Candidates {
     points: Vec<ContactPoint>,
     margin: f64,
-    /// Room for the two sides that face each other, and for an outline before and after a cut.
+    /// The two sides that face each other.
     sides: [Outline; 2],
-    cuts: [Vec<Cut>; 2],
+    room: Room,
 }
 
 impl Candidates {
     pub fn new(margin: f64) -> Self {
-        Self { points: Vec::new(), margin, sides: Default::default(), cuts: Default::default() }
+        Self { points: Vec::new(), margin, sides: Default::default(), room: Room::default() }
     }
 
     /// Room for the points of another manifold within the same margin.
     pub fn clear(&mut self) {
         self.points.clear();
+        self.points.reserve(FEW);
     }
 
     pub fn push(&mut self, point: ContactPoint) {
@@ -73,42 +80,24 @@ impl Candidates {
     }
 }
 
-/// What the side of an outline being cut is: one of its own, or a cut along one of the other's.
-#[derive(Clone, Copy)]
-enum Side {
-    Own(Feature),
-    Cut { edge: Feature, from: Feature },
-}
-
-/// A corner of the outline being cut: its place in the plane across the normal, its height along it.
-#[derive(Clone, Copy)]
-struct Cut {
-    x: f64,
-    y: f64,
-    height: f64,
-    own: Feature,
-    other: Feature,
-    onward: Side,
-}
-
 /// Cuts the side of `a` that faces along `normal` to the side of `b` that faces against it (Sutherland and Hodgman,
 /// *Reentrant Polygon Clipping*, 1974) and offers the corners of what is left, in a's frame. Offers nothing where
 /// the sides pass each other edge on or meet in single points; the axis' own points stand in there.
 pub(super) fn contacts(a: &Convex, b: &Convex, b_in_a: &Pose, normal: DVec3, out: &mut Candidates) {
     let mut sides = std::mem::take(&mut out.sides);
-    let mut cuts = std::mem::take(&mut out.cuts);
+    let mut room = std::mem::take(&mut out.room);
     a.core.outline_into(normal, &mut sides[0]);
     b.core.outline_into(b_in_a.rotation.conjugate() * -normal, &mut sides[1]);
     sides[1].corners_mut().iter_mut().for_each(|corner| corner.point = b_in_a.transform_point(corner.point));
-    contacts_of_sides((a.radius, &sides[0]), (b.radius, &sides[1]), normal, &mut cuts, out);
-    (out.sides, out.cuts) = (sides, cuts);
+    contacts_of_sides((a.radius, &sides[0]), (b.radius, &sides[1]), normal, &mut room, out);
+    (out.sides, out.room) = (sides, room);
 }
 
 fn contacts_of_sides(
     (radius_a, side_a): (f64, &Outline),
     (radius_b, side_b): (f64, &Outline),
     normal: DVec3,
-    [shape, left]: &mut [Vec<Cut>; 2],
+    room: &mut Room,
     out: &mut Candidates,
 ) {
     let (across, up) = {
@@ -135,123 +124,20 @@ fn contacts_of_sides(
     let b_cuts = corners_b.len() > 2;
     let (subject, knife) = if b_cuts { (side_a, side_b) } else { (side_b, side_a) };
     let Some(plane) = Knife::new(knife.corners(), flat) else { return };
-    shape.clear();
+    room.clear();
     for corner in subject.corners() {
         let (x, y, height) = flat(corner);
         let onward = Side::Own(corner.edge);
-        shape.push(Cut { x, y, height, own: corner.vertex, other: knife.face, onward });
+        room.shape.push(Cut { x, y, height, own: corner.vertex, other: knife.face, onward });
     }
-    for k in 0..knife.corners().len() {
-        if plane.cut((shape, left), k, knife.corners(), subject.face) {
-            std::mem::swap(shape, left);
-        }
-    }
-    for cut in shape {
+    plane.cut_all(room, knife.corners(), subject.face);
+    for cut in &room.shape {
         let height = plane.height(cut.x, cut.y);
         if b_cuts {
             offer(cut.x, cut.y, (cut.height, height), (cut.own, cut.other));
         } else {
             offer(cut.x, cut.y, (height, cut.height), (cut.other, cut.own));
         }
-    }
-}
-
-/// The outline that cuts: its sides in the plane across the normal, its own plane in space.
-struct Knife {
-    places: [(f64, f64); CORNERS],
-    count: usize,
-    /// 1 if the sides run anticlockwise seen against the normal, else −1.
-    turn: f64,
-    /// height = slope·(x, y) + offset.
-    slope: (f64, f64),
-    offset: f64,
-    /// Points this far outside, m, count as inside.
-    tolerance: f64,
-}
-
-impl Knife {
-    /// `None` if there is no area, or it is seen edge on (the heights would be all rounding).
-    fn new(corners: &[Corner], flat: impl Fn(&Corner) -> (f64, f64, f64)) -> Option<Self> {
-        if corners.len() < 3 {
-            return None;
-        }
-        let count = corners.len();
-        let mut points = [(0.0, 0.0, 0.0); CORNERS];
-        points.iter_mut().zip(corners).for_each(|(point, corner)| *point = flat(corner));
-        let origin = points[0];
-        let from_origin = |k: usize| {
-            let (x, y, height) = points[k];
-            DVec3::new(x - origin.0, y - origin.1, height - origin.2)
-        };
-        // Twice the area, as a vector (Newell).
-        let area: DVec3 = (1..count - 1).map(|k| from_origin(k).cross(from_origin(k + 1))).sum();
-        if area.z.abs() <= 0.05 * area.length() {
-            return None;
-        }
-        let slope = (-area.x / area.z, -area.y / area.z);
-        let offset = origin.2 - slope.0 * origin.0 - slope.1 * origin.1;
-        let extent = (1..count).map(|k| from_origin(k).length()).fold(0.0, f64::max);
-        let places = points.map(|(x, y, _)| (x, y));
-        Some(Self { places, count, turn: area.z.signum(), slope, offset, tolerance: 1e-9 * extent })
-    }
-
-    fn height(&self, x: f64, y: f64) -> f64 {
-        self.slope.0 * x + self.slope.1 * y + self.offset
-    }
-
-    /// Leaves what of `shape` lies inside the knife's side `k`; false if that is all of it.
-    fn cut(
-        &self,
-        (shape, left): (&[Cut], &mut Vec<Cut>),
-        k: usize,
-        corners: &[Corner],
-        face: Feature,
-    ) -> bool {
-        let (from, to) = (self.places[k], self.places[(k + 1) % self.count]);
-        let (dx, dy) = (to.0 - from.0, to.1 - from.1);
-        let length = (dx * dx + dy * dy).sqrt();
-        if length == 0.0 {
-            return false;
-        }
-        let inside = |cut: &Cut| self.turn * (dx * (cut.y - from.1) - dy * (cut.x - from.0)) / length;
-        let keeps = |depth: f64| depth >= -self.tolerance;
-        if shape.iter().all(|cut| keeps(inside(cut))) {
-            return false;
-        }
-        left.clear();
-        for (i, here) in shape.iter().enumerate() {
-            let next = &shape[if i + 1 < shape.len() { i + 1 } else { 0 }];
-            let (depth_here, depth_next) = (inside(here), inside(next));
-            if keeps(depth_here) {
-                left.push(*here);
-            }
-            if keeps(depth_here) == keeps(depth_next) {
-                continue;
-            }
-            let part = (depth_here / (depth_here - depth_next)).clamp(0.0, 1.0);
-            let between = |one: f64, other: f64| one + part * (other - one);
-            let (own, other) = match here.onward {
-                Side::Own(edge) => (edge, corners[k].edge),
-                // Two cuts meet where the knife has a corner.
-                Side::Cut { edge, from } if edge == corners[k].edge => (face, from),
-                Side::Cut { .. } => (face, corners[k].vertex),
-            };
-            // Going out, the way goes on along the knife; coming in, along what it came by.
-            let onward = if keeps(depth_here) {
-                Side::Cut { edge: corners[k].edge, from: corners[k].vertex }
-            } else {
-                here.onward
-            };
-            left.push(Cut {
-                x: between(here.x, next.x),
-                y: between(here.y, next.y),
-                height: between(here.height, next.height),
-                own,
-                other,
-                onward,
-            });
-        }
-        true
     }
 }
 

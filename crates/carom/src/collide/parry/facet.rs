@@ -7,16 +7,16 @@
 //! # Reference
 //! Ericson, *Real-Time Collision Detection* (2005), 5.1.5 (the closest point of a triangle), 5.1.10 (a segment and a triangle).
 
+mod form;
 mod way_out;
 
 use super::axis::Axis;
-use super::convex::Core;
 use crate::collide::ROUNDING;
 use crate::collide::closest::closest;
-use crate::collide::cuboid::Cuboid;
-use crate::collide::polytope::{CuboidParts, Farthest, Moved, Polytope};
+use crate::collide::polytope::{Farthest, Moved, Polytope};
 use crate::collide::segment::Segment;
-use crate::math::{DVec3, Pose};
+use crate::math::DVec3;
+pub(super) use form::Form;
 
 /// A triangle with an area.
 pub(super) struct Facet {
@@ -25,39 +25,6 @@ pub(super) struct Facet {
     normal: DVec3,
     /// A length like the triangle's own, m.
     size: f64,
-}
-
-/// A core that has kernels of its own, in the surface's frame.
-pub(super) enum Form<'a> {
-    /// A ball's.
-    Point(DVec3),
-    /// A capsule's.
-    Segment(Segment),
-    /// A cuboid or a hull.
-    Solid(Moved<'a, Polytope<'a>>),
-}
-
-impl Form<'_> {
-    /// Hands `look` the form of a core at a pose; none for a core that has none.
-    pub fn with<R>(core: &Core, pose: &Pose, look: impl FnOnce(Option<&Form>) -> R) -> R {
-        match *core {
-            Core::Point => look(Some(&Form::Point(pose.position))),
-            Core::Segment { half } => {
-                let half = pose.rotation * DVec3::new(0.0, half, 0.0);
-                look(Some(&Form::Segment(Segment { center: pose.position, half })))
-            }
-            Core::Cuboid { half } => {
-                let parts = CuboidParts::new(&Cuboid { half, pose: *pose });
-                let polytope = parts.polytope();
-                look(Some(&Form::Solid(Moved::new(&polytope, pose))))
-            }
-            Core::Hull(hull) => match Polytope::of_hull(hull, pose) {
-                Some(polytope) => look(Some(&Form::Solid(Moved::new(&polytope, pose)))),
-                None => look(None),
-            },
-            Core::Balls { .. } | Core::Frustum { .. } | Core::Triangle { .. } => look(None),
-        }
-    }
 }
 
 impl Farthest for Facet {
@@ -73,14 +40,8 @@ impl Farthest for Facet {
 }
 
 impl Facet {
-    /// `None` where rounding leaves no direction at right angles to it.
-    pub fn new(corners: [DVec3; 3]) -> Option<Self> {
-        let [a, b, c] = corners;
-        Self::with_normal(corners, (b - a).cross(c - a).normalize_or_zero())
-    }
-
-    /// The same for a known direction, around which the corners run anticlockwise.
-    pub fn with_normal(corners: [DVec3; 3], normal: DVec3) -> Option<Self> {
+    /// Of a direction at right angles to it around which its corners run anticlockwise; `None` where rounding leaves none.
+    pub fn new(corners: [DVec3; 3], normal: DVec3) -> Option<Self> {
         let [a, b, c] = corners;
         let size = 0.5 * (a.max(b).max(c) - a.min(b).min(c)).max_element();
         (normal != DVec3::ZERO).then_some(Self { corners, normal, size })
@@ -126,24 +87,35 @@ impl Facet {
         [Some(self.normal_towards(middle)), (middle - self.closest_to(middle)).try_normalize()]
     }
 
-    /// A gap (m) that the distance from a core is no less than, at the price of a few points.
-    pub fn gap_at_least(&self, form: &Form) -> f64 {
+    /// A gap (m) that the distance from a core is no less than, at the price of a few points; one beyond `limit` will do.
+    pub fn gap_at_least(&self, form: &Form, limit: f64) -> f64 {
         match form {
             Form::Point(point) => self.closest_to(*point).distance(*point),
             Form::Segment(core) => {
                 let reach = core.half.dot(self.normal).abs();
                 let over = self.height(core.center).abs() - reach;
-                let way = core.center - self.closest_to(core.center);
-                over.max(self.gap_towards(way, |way| core.center.dot(way) - core.half.dot(way).abs()))
+                if over > limit {
+                    return over;
+                }
+                over.max(self.gap_beside(core))
             }
             Form::Solid(solid) => {
                 let middle = solid.place(solid.shape.middle);
                 let own = self.normal_towards(middle);
                 let over = (solid.farthest(-own).1 - self.corners[0]).dot(own);
+                if over > limit {
+                    return over;
+                }
                 let way = middle - self.closest_to(middle);
                 over.max(self.gap_towards(way, |way| solid.farthest(-way).1.dot(way)))
             }
         }
+    }
+
+    /// The gap to a core along the way to its middle.
+    fn gap_beside(&self, core: &Segment) -> f64 {
+        let way = core.center - self.closest_to(core.center);
+        self.gap_towards(way, |way| core.center.dot(way) - core.half.dot(way).abs())
     }
 
     /// The gap along a way of any length; `lowest` tells how far the other one reaches against it.
@@ -166,6 +138,10 @@ impl Facet {
     }
 
     fn to_point(&self, point: DVec3, limit: f64) -> Option<Axis> {
+        let height = self.height(point).abs();
+        if height > limit {
+            return None;
+        }
         let on_a = self.closest_to(point);
         let offset = point - on_a;
         let distance = offset.length();
@@ -173,7 +149,6 @@ impl Facet {
             return None;
         }
         let own = self.normal_towards(point);
-        let height = self.height(point).abs();
         Some(if height >= distance - ROUNDING * self.size {
             Axis { normal: own, gap: height, on_a, on_b: point }
         } else {
@@ -189,6 +164,9 @@ impl Facet {
         }
         if own.gap >= 0.0 && self.is_over(own.on_b) {
             return Some(own);
+        }
+        if limit < f64::MAX && self.gap_beside(core) > limit {
+            return None;
         }
         let size = self.size + core.half.abs().max_element();
         let pairs = [0, 1, 2].map(|side| {

@@ -1,33 +1,36 @@
 //! Meshes and height fields: every triangle near the other shape is a convex core of its own.
 
+mod normal;
+
 use super::axis::Axis;
 use super::clip::Candidates;
 use super::convex::{Convex, Core};
 use super::facet::Form;
-use super::triangles::{Triangles, triangles_of};
+use super::triangles::Triangles;
 use super::{Beside, OnSurface, axis, convex_manifold};
 use crate::collide::{ContactPoint, Manifold};
 use crate::math::{DVec3, Pose};
 use crate::report::Feature;
 use crate::shape::Shape;
+use normal::surface_normal;
 
-pub(super) fn triangle_core(surface: &dyn Triangles, index: u32) -> Convex<'static> {
+pub(super) fn triangle_core(surface: Triangles, index: u32) -> Convex<'static> {
     let (corners, vertices) = (surface.corners(index), surface.corner_numbers(index));
     Convex { core: Core::Triangle { corners, index, vertices }, radius: 0.0 }
 }
 
 /// The triangles whose boxes come within `margin` of the box from `low` to `high` (the surface's frame), by number.
-fn nearby(surface: &dyn Triangles, low: DVec3, high: DVec3, margin: f64) -> Vec<u32> {
+fn nearby(surface: Triangles, low: DVec3, high: DVec3, margin: f64) -> Vec<u32> {
     let grown = DVec3::splat(margin.max(0.0));
     surface.within(low - grown, high + grown)
 }
 
 /// A gap (m) between a triangle and a convex shape that their distance is no less than: the widest along a few
-/// directions, at the price of a few support points.
-fn gap_at_least(surface: &dyn Triangles, index: u32, beside: &Beside) -> f64 {
+/// directions, at the price of a few support points; one beyond `limit` will do.
+fn gap_at_least(surface: Triangles, index: u32, beside: &Beside, limit: f64) -> f64 {
     let Some(facet) = surface.facet(index) else { return f64::NEG_INFINITY };
     let gap = match beside.form {
-        Some(form) => facet.gap_at_least(form),
+        Some(form) => facet.gap_at_least(form, limit + beside.convex.radius),
         None => {
             let triangle = triangle_core(surface, index);
             let middle = beside.inner.transform_point(beside.convex.core.middle());
@@ -39,7 +42,7 @@ fn gap_at_least(surface: &dyn Triangles, index: u32, beside: &Beside) -> f64 {
 }
 
 /// The axis of the largest gap between a triangle and the core of a convex shape, if that shape comes within `margin`.
-fn gap_within(surface: &dyn Triangles, index: u32, beside: &Beside, margin: f64) -> Option<Axis> {
+fn gap_within(surface: Triangles, index: u32, beside: &Beside, margin: f64) -> Option<Axis> {
     let radius = beside.convex.radius;
     match beside.form.and_then(|form| Some((form, surface.facet(index)?))) {
         Some((form, facet)) => {
@@ -48,7 +51,8 @@ fn gap_within(surface: &dyn Triangles, index: u32, beside: &Beside, margin: f64)
         None => {
             // Rounding must not turn away what is just near enough.
             let slack = 1e-9 * (beside.convex.core.reach() + radius);
-            let is_far = margin < f64::MAX && gap_at_least(surface, index, beside) > margin + slack;
+            let is_far =
+                margin < f64::MAX && gap_at_least(surface, index, beside, margin + slack) > margin + slack;
             let found = || beside.gap_within(&triangle_core(surface, index).core, 0.0, margin);
             if is_far { None } else { found() }
         }
@@ -56,7 +60,7 @@ fn gap_within(surface: &dyn Triangles, index: u32, beside: &Beside, margin: f64)
 }
 
 /// The least separation of any triangle from `other`, which is no plane.
-pub(super) fn separation(surface: &dyn Triangles, pose: &Pose, other: &Shape, other_pose: &Pose) -> f64 {
+pub(super) fn separation(surface: Triangles, pose: &Pose, other: &Shape, other_pose: &Pose) -> f64 {
     let inner = pose.relative(other_pose);
     let (low, high) = other.bounds(&inner);
     let (surface_low, surface_high) = surface.bounds();
@@ -79,14 +83,14 @@ pub(super) fn separation(surface: &dyn Triangles, pose: &Pose, other: &Shape, ot
 /// The least separation of the triangles of `surface` from `other`, which lies between `low` and `high` in the surface's
 /// frame, if it is below `horizon` (m); else that.
 fn separation_within(
-    (surface, pose): (&dyn Triangles, &Pose),
+    (surface, pose): (Triangles, &Pose),
     (other, other_pose): (&Shape, &Pose),
     (low, high): (DVec3, DVec3),
     horizon: f64,
 ) -> f64 {
     let near = nearby(surface, low, high, horizon);
     let inner = pose.relative(other_pose);
-    match (Convex::of(other), triangles_of(other)) {
+    match (Convex::of(other), Triangles::of(other)) {
         (Some(convex), _) => Form::with(&convex.core, &inner, |form| {
             least_separation(surface, near, &Beside { convex: &convex, inner, form }, horizon)
         }),
@@ -110,13 +114,15 @@ fn separation_within(
 
 /// The least separation of the triangles `near` from a convex shape, if it is below `least`. What is sure to be no
 /// closer than something else is not measured: likely ones go first.
-fn least_separation(surface: &dyn Triangles, near: Vec<u32>, beside: &Beside, least: f64) -> f64 {
-    let bound = |index: u32| gap_at_least(surface, index, beside);
-    let mut queue: Vec<(f64, u32)> = near.into_iter().map(|index| (bound(index), index)).collect();
+fn least_separation(surface: Triangles, near: Vec<u32>, beside: &Beside, least: f64) -> f64 {
+    // Of those that overlap the shortest way out is known only once it is measured.
+    let limit = least.max(0.0);
+    let bound = |index: u32| gap_at_least(surface, index, beside, limit);
+    let mut queue: Vec<(f64, u32)> =
+        near.into_iter().map(|index| (bound(index), index)).filter(|&(bound, _)| bound <= limit).collect();
     queue.sort_unstable_by(|one, other| one.0.total_cmp(&other.0).then(one.1.cmp(&other.1)));
     let (mut least, radius) = (least, beside.convex.radius);
     for (bound, index) in queue {
-        // Of those that overlap the shortest way out is known only once it is measured.
         if bound > least.max(0.0) {
             break;
         }
@@ -129,7 +135,7 @@ fn least_separation(surface: &dyn Triangles, near: Vec<u32>, beside: &Beside, le
 
 /// One manifold for each triangle that is struck; the surface goes first.
 pub(super) fn manifolds(
-    surface: &dyn Triangles,
+    surface: Triangles,
     pose: &Pose,
     other: (&Shape, &Pose),
     margin: f64,
@@ -137,7 +143,7 @@ pub(super) fn manifolds(
 ) {
     let (low, high) = other.0.bounds(&pose.relative(other.1));
     let near = nearby(surface, low, high, margin);
-    match (Convex::of(other.0), triangles_of(other.0)) {
+    match (Convex::of(other.0), Triangles::of(other.0)) {
         (Some(convex), _) => {
             let inner = pose.relative(other.1);
             Form::with(&convex.core, &inner, |form| {
@@ -162,7 +168,7 @@ pub(super) fn manifolds(
 /// Where their corrections leave nothing of a touch (on a tip between ridges and valleys, or deep in a border), the triangle
 /// that is deepest in has it along its own shortest way out.
 fn convex_manifolds(
-    (surface, pose): (&dyn Triangles, &Pose),
+    (surface, pose): (Triangles, &Pose),
     beside: &Beside,
     near: &[u32],
     margin: f64,
@@ -180,7 +186,7 @@ fn convex_manifolds(
         }
         let triangle = triangle_core(surface, index);
         let correct = |normal: DVec3| surface_normal(surface, index, normal, middle);
-        let around = OnSurface { correct: &correct, known: &out[first..] };
+        let around = OnSurface { correct: &correct, own: surface.normal(index), known: &out[first..] };
         let found = convex_manifold((&triangle, pose), beside, axis, (&mut candidates, Some(&around)));
         out.extend(found);
     }
@@ -195,8 +201,8 @@ fn convex_manifolds(
 
 /// The manifolds of the triangles `near` with those of another surface, each by its own shortest way out.
 fn surface_manifolds(
-    (surface, pose): (&dyn Triangles, &Pose),
-    (other, other_pose): (&dyn Triangles, &Pose),
+    (surface, pose): (Triangles, &Pose),
+    (other, other_pose): (Triangles, &Pose),
     near: &[u32],
     margin: f64,
     out: &mut Vec<Manifold>,
@@ -209,7 +215,8 @@ fn surface_manifolds(
         let (low, high) = triangle_bounds(surface, index, &turned);
         for other_index in nearby(other, low, high, margin) {
             let other_triangle = triangle_core(other, other_index);
-            let around = OnSurface { correct: &|normal| normal, known: &out[first..] };
+            let own = surface.normal(index);
+            let around = OnSurface { correct: &|normal| normal, own, known: &out[first..] };
             let beside = Beside { convex: &other_triangle, inner: pose.relative(other_pose), form: None };
             let Some(axis) = beside.gap_within(&triangle.core, 0.0, margin) else { continue };
             let found = convex_manifold((&triangle, pose), &beside, axis, (&mut candidates, Some(&around)));
@@ -218,97 +225,26 @@ fn surface_manifolds(
     }
 }
 
-fn triangle_bounds(surface: &dyn Triangles, index: u32, pose: &Pose) -> (DVec3, DVec3) {
+fn triangle_bounds(surface: Triangles, index: u32, pose: &Pose) -> (DVec3, DVec3) {
     let corners = surface.corners(index).map(|corner| pose.transform_point(corner));
     (corners[0].min(corners[1]).min(corners[2]), corners[0].max(corners[1]).max(corners[2]))
 }
 
-/// The normal that the surface allows a contact on this triangle: `normal`, the triangle's own, the neighbour's, or one
-/// between them.
-///
-/// Over the side that a triangle shares with a neighbour, the shortest way out of the triangle may lead sideways, into
-/// the neighbour: a box sliding over a floor of triangles would trip on their seams. Where the neighbour goes on flat
-/// or rises, nothing of the normal may lead over that side; where it falls away, the neighbour's own normal is the
-/// steepest. At a border all are true. All in the surface's frame; `middle` lies inside the other shape.
-fn surface_normal(surface: &dyn Triangles, index: u32, normal: DVec3, middle: DVec3) -> DVec3 {
-    const FLAT: f64 = 1e-6;
-    const ROUNDING: f64 = 1e-12;
-    let corners = surface.corners(index);
-    let anticlockwise = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize_or_zero();
-    let above = normal.dot(anticlockwise);
-    let above = if above.abs() > 1e-3 { above } else { (middle - corners[0]).dot(anticlockwise) };
-    let own = if above < 0.0 { -anticlockwise } else { anticlockwise };
-    let sideways = normal - own * normal.dot(own);
-    if sideways.length() <= FLAT {
-        return if sideways.length() <= ROUNDING { own } else { normal };
-    }
-    let neighbours = surface.neighbours(index);
-    let (mut left, mut steepest) = (normal, None);
-    for (side, outward, share) in sides_crossed(corners, anticlockwise, sideways) {
-        let Some(neighbour) = neighbours[side].filter(|_| share > FLAT) else { continue };
-        let (from, to) = (corners[side], corners[(side + 1) % 3]);
-        let along = (to - from).normalize_or_zero();
-        let beyond = surface.corners(neighbour).map(|corner| {
-            let reach = corner - from;
-            reach - along * reach.dot(along)
-        });
-        let longest =
-            beyond.into_iter().max_by(|one, other| one.length_squared().total_cmp(&other.length_squared()));
-        let onward = longest.unwrap_or(DVec3::ZERO).normalize_or_zero();
-        if onward.dot(own) >= -FLAT {
-            left -= outward * share;
-            continue;
-        }
-        // The neighbour's normal on this side, on the far side of the ridge from our own.
-        let across = along.cross(onward).normalize_or_zero();
-        let theirs = if across.dot(outward) < 0.0 { -across } else { across };
-        if steepest.is_none_or(|steepest: DVec3| steepest.dot(own) < theirs.dot(own)) {
-            steepest = Some(theirs);
-        }
-    }
-    if left != normal {
-        let remains = left - own * left.dot(own);
-        left = if remains.length() <= FLAT { own } else { left.normalize_or(own) };
-    }
-    steepest.filter(|steepest| left.dot(own) < steepest.dot(own)).unwrap_or(left)
-}
-
-/// The two sides of a triangle that meet at its corner farthest `sideways` (a vector in its plane), each with its outward
-/// normal in the plane and with how much of that `sideways` takes: it is the sum of the two, and no share is negative.
-fn sides_crossed(corners: [DVec3; 3], anticlockwise: DVec3, sideways: DVec3) -> [(usize, DVec3, f64); 2] {
-    let height = |corner: usize| corners[corner].dot(sideways);
-    let farthest = (1..3).fold(0, |best, corner| if height(corner) > height(best) { corner } else { best });
-    let (before, after) = ((farthest + 2) % 3, farthest);
-    let along = |side: usize| (corners[(side + 1) % 3] - corners[side]).normalize_or_zero();
-    let outward = |side: usize| along(side).cross(anticlockwise);
-    // The other side's direction has no part in its own normal, so it tells the first one's share.
-    let share = |side: usize, other: usize| {
-        let turn = outward(side).dot(along(other));
-        if turn == 0.0 { 0.0 } else { sideways.dot(along(other)) / turn }
-    };
-    [(before, outward(before), share(before, after)), (after, outward(after), share(after, before))]
-}
-
 /// Height (m) of the lowest corner above the plane.
-pub(super) fn plane_separation(plane: &Pose, surface: &dyn Triangles, pose: &Pose) -> f64 {
+pub(super) fn plane_separation(plane: &Pose, surface: Triangles, pose: &Pose) -> f64 {
     let up = plane.rotation * DVec3::Y;
     let mut lowest = f64::INFINITY;
-    surface.visit_corners(&mut |corner, _| {
+    surface.visit_corners(|corner, _| {
         lowest = lowest.min((pose.transform_point(corner) - plane.position).dot(up));
     });
     lowest
 }
 
 /// The plane goes first: the normal is the plane's own.
-pub(super) fn plane_manifold(
-    plane: &Pose,
-    surface: &dyn Triangles,
-    pose: &Pose,
-    margin: f64,
-) -> Option<Manifold> {
+pub(super) fn plane_manifold(plane: &Pose, surface: Triangles, pose: &Pose, margin: f64) -> Option<Manifold> {
     let up = plane.rotation * DVec3::Y;
     let mut candidates = Candidates::new(margin);
-    surface.visit_corners(&mut |corner, vertex| {
+    surface.visit_corners(|corner, vertex| {
         let corner = pose.transform_point(corner);
         let separation = (corner - plane.position).dot(up);
         let point = corner - up * (0.5 * separation);

@@ -5,99 +5,91 @@ use crate::height_field::HeightField;
 use crate::math::DVec3;
 use crate::mesh::Mesh;
 use crate::shape::Shape;
-use parry3d_f64::bounding_volume::Aabb;
 
 /// A surface of numbered triangles, all in its own frame.
-pub(super) trait Triangles {
+#[derive(Clone, Copy)]
+pub(super) enum Triangles<'a> {
+    Mesh(&'a Mesh),
+    HeightField(&'a HeightField),
+}
+
+impl<'a> Triangles<'a> {
+    /// The triangles of a shape that consists of them.
+    pub fn of(shape: &'a Shape) -> Option<Self> {
+        match shape {
+            Shape::Mesh(mesh) => Some(Triangles::Mesh(mesh)),
+            Shape::HeightField(field) => Some(Triangles::HeightField(field)),
+            _ => None,
+        }
+    }
+
     /// The box around them: lowest and highest corner, m.
-    fn bounds(&self) -> (DVec3, DVec3);
+    pub fn bounds(self) -> (DVec3, DVec3) {
+        match self {
+            Triangles::Mesh(mesh) => mesh.bounds(),
+            Triangles::HeightField(field) => field.bounds(),
+        }
+    }
 
     /// Those with an area whose boxes meet the box from `low` to `high`, in order.
-    fn within(&self, low: DVec3, high: DVec3) -> Vec<u32>;
+    pub fn within(self, low: DVec3, high: DVec3) -> Vec<u32> {
+        match self {
+            Triangles::Mesh(mesh) => mesh.within(low, high),
+            Triangles::HeightField(field) => field.within(low, high),
+        }
+    }
 
     /// The corners of a triangle, m.
-    fn corners(&self, triangle: u32) -> [DVec3; 3];
+    pub fn corners(self, triangle: u32) -> [DVec3; 3] {
+        match self {
+            Triangles::Mesh(mesh) => mesh.corners(triangle),
+            Triangles::HeightField(field) => field.triangle(triangle).map(|corner| field.vertex(corner)),
+        }
+    }
 
-    /// A triangle for its kernels; none where rounding leaves no direction at right angles to it.
-    fn facet(&self, triangle: u32) -> Option<Facet> {
-        Facet::new(self.corners(triangle))
+    /// The direction at right angles to a triangle around which its corners run anticlockwise, unit length; zero where rounding
+    /// leaves none.
+    pub fn normal(self, triangle: u32) -> DVec3 {
+        match self {
+            Triangles::Mesh(mesh) => mesh.normal(triangle),
+            Triangles::HeightField(_) => {
+                let [a, b, c] = self.corners(triangle);
+                (b - a).cross(c - a).normalize_or_zero()
+            }
+        }
+    }
+
+    /// A triangle for its kernels; none where it has no normal.
+    pub fn facet(self, triangle: u32) -> Option<Facet> {
+        Facet::new(self.corners(triangle), self.normal(triangle))
     }
 
     /// The numbers of its corners.
-    fn corner_numbers(&self, triangle: u32) -> [u32; 3];
+    pub fn corner_numbers(self, triangle: u32) -> [u32; 3] {
+        match self {
+            Triangles::Mesh(mesh) => mesh.triangles()[triangle as usize],
+            Triangles::HeightField(field) => field.triangle(triangle),
+        }
+    }
 
     /// The triangles beyond its sides 0→1, 1→2, 2→0: none at a border or where more than two meet.
-    fn neighbours(&self, triangle: u32) -> [Option<u32>; 3];
+    pub fn neighbours(self, triangle: u32) -> [Option<u32>; 3] {
+        match self {
+            Triangles::Mesh(mesh) => mesh.neighbours(triangle),
+            Triangles::HeightField(field) => field.neighbours(triangle),
+        }
+    }
 
     /// Shows every corner of every triangle, with its number.
-    fn visit_corners(&self, visit: &mut dyn FnMut(DVec3, u32));
-}
-
-/// The triangles of a shape that consists of them.
-pub(super) fn triangles_of(shape: &Shape) -> Option<&dyn Triangles> {
-    match shape {
-        Shape::Mesh(mesh) => Some(&**mesh),
-        Shape::HeightField(field) => Some(&**field),
-        _ => None,
-    }
-}
-
-impl Triangles for Mesh {
-    fn bounds(&self) -> (DVec3, DVec3) {
-        self.bounds()
-    }
-
-    fn within(&self, low: DVec3, high: DVec3) -> Vec<u32> {
-        let search = Aabb::new(low, high);
-        let mut found: Vec<u32> =
-            self.tree().intersect_aabb(&search).filter(|&index| self.has_area(index)).collect();
-        found.sort_unstable();
-        found
-    }
-
-    fn corners(&self, triangle: u32) -> [DVec3; 3] {
-        self.corners(triangle)
-    }
-
-    fn facet(&self, triangle: u32) -> Option<Facet> {
-        Facet::with_normal(self.corners(triangle), self.normal(triangle))
-    }
-
-    fn corner_numbers(&self, triangle: u32) -> [u32; 3] {
-        self.triangles()[triangle as usize]
-    }
-
-    fn neighbours(&self, triangle: u32) -> [Option<u32>; 3] {
-        self.neighbours(triangle)
-    }
-
-    fn visit_corners(&self, visit: &mut dyn FnMut(DVec3, u32)) {
-        self.triangles().iter().flatten().for_each(|&vertex| visit(self.vertices()[vertex as usize], vertex));
-    }
-}
-
-impl Triangles for HeightField {
-    fn bounds(&self) -> (DVec3, DVec3) {
-        self.bounds()
-    }
-
-    fn within(&self, low: DVec3, high: DVec3) -> Vec<u32> {
-        self.within(low, high)
-    }
-
-    fn corners(&self, triangle: u32) -> [DVec3; 3] {
-        self.triangle(triangle).map(|corner| self.vertex(corner))
-    }
-
-    fn corner_numbers(&self, triangle: u32) -> [u32; 3] {
-        self.triangle(triangle)
-    }
-
-    fn neighbours(&self, triangle: u32) -> [Option<u32>; 3] {
-        self.neighbours(triangle)
-    }
-
-    fn visit_corners(&self, visit: &mut dyn FnMut(DVec3, u32)) {
-        (0..self.n_vertices()).for_each(|vertex| visit(self.vertex(vertex), vertex));
+    pub fn visit_corners(self, mut visit: impl FnMut(DVec3, u32)) {
+        match self {
+            Triangles::Mesh(mesh) => {
+                let corners = mesh.triangles().iter().flatten();
+                corners.for_each(|&vertex| visit(mesh.vertices()[vertex as usize], vertex));
+            }
+            Triangles::HeightField(field) => {
+                (0..field.n_vertices()).for_each(|vertex| visit(field.vertex(vertex), vertex));
+            }
+        }
     }
 }

@@ -1,19 +1,17 @@
 //! A tree of boxes that changes little by little.
 //!
-//! Nodes hold up to eight boxes, axis by axis side by side, so that a query is compared with four of them at once. The tree grows
-//! as a B-tree does: a full node splits in two and hands the twin to its parent, so that all leaves are equally deep. What leaves the box of
-//! its node is put in anew, from the root. Boxes are in single precision, relative to an origin near them: both rounding
-//! and the change of origin keep the order of numbers, so that boxes that meet still do.
+//! Nodes hold up to eight boxes ([`crate::boxes`]). The tree grows as a B-tree does: a full node splits in two and hands the twin to its
+//! parent, so that all leaves are equally deep. What leaves the box of its node is put in anew, from the root.
 //!
-//! Reference: Guttman, *R-trees: a dynamic index structure for spatial searching* (1984); eight boxes a node as in Dammertz, Hanika and
-//! Keller, *Shallow bounding volume hierarchies for fast SIMD ray tracing* (2008).
+//! Reference: Guttman, *R-trees: a dynamic index structure for spatial searching* (1984).
 
 mod node;
 
 use super::bounds::Bounds;
+use crate::boxes::{Local, Query, WIDTH};
 use crate::math::DVec3;
 use glam::Vec3;
-use node::{Local, NONE, Node, Query, WIDTH};
+use node::{NONE, Node};
 
 /// A node of leaves that has fewer gives them to others.
 const FEWEST: usize = 3;
@@ -142,7 +140,7 @@ impl Tree {
     }
 
     fn local(&self, bounds: &Bounds) -> Local {
-        Local { low: (bounds.low - self.origin).as_vec3(), high: (bounds.high - self.origin).as_vec3() }
+        Local::new((bounds.low, bounds.high), self.origin)
     }
 
     fn place(&self, key: u32) -> (u32, u32) {

@@ -24,7 +24,8 @@ const NO_REACH: f64 = 1e-12;
 /// What a manifold exerted.
 pub(super) struct Past {
     normal: DVec3,
-    points: Vec<PastPoint>,
+    points: [PastPoint; POINTS],
+    count: usize,
     /// Where friction acted, and what it was, N·s.
     middle: DVec3,
     friction: DVec3,
@@ -32,6 +33,7 @@ pub(super) struct Past {
     twist: f64,
 }
 
+#[derive(Clone, Copy)]
 struct PastPoint {
     features: (Feature, Feature),
     place: DVec3,
@@ -51,14 +53,17 @@ impl Rest {
         let place = |arm_a: usize, arm_b: usize| {
             0.5 * (centers[0] + outward(vector(arm_a)) + centers[1] + outward(vector(arm_b)))
         };
-        let point = |(index, &features): (usize, &(Feature, Feature))| {
+        let mut points = [PastPoint::NONE; POINTS];
+        let count = support.features().len();
+        for (index, (point, &features)) in points.iter_mut().zip(support.features()).enumerate() {
             let at = |line: usize| field::of_point(index, line);
             let place = place(at(field::ARM_A), at(field::ARM_B));
-            PastPoint { features, place, pressure: read(at(field::IMPULSE)) }
-        };
+            *point = PastPoint { features, place, pressure: read(at(field::IMPULSE)) };
+        }
         Past {
             normal,
-            points: support.features().iter().enumerate().map(point).collect(),
+            points,
+            count,
             middle: place(field::FRICTION_ARM_A, field::FRICTION_ARM_B),
             friction: outward(DVec3::new(read(field::FRICTION), read(field::FRICTION + 1), 0.0)),
             twist: read(field::TWIST),
@@ -68,27 +73,41 @@ impl Rest {
 
 /// The impulses that `manifolds` start from when they follow upon those of the `past`.
 pub(super) fn remembered(past: &[Past], manifolds: &[Manifold], margin: f64) -> Vec<Remembered> {
-    let mut followed: Vec<Vec<&Past>> = vec![Vec::new(); manifolds.len()];
-    for old in past {
+    let follower = |old: &Past| {
         let shared = |manifold: &Manifold| {
-            manifold.points().iter().filter(|point| old.points.iter().any(|it| it.is_of(point))).count()
+            manifold.points().iter().filter(|point| old.points().iter().any(|it| it.is_of(point))).count()
         };
         let alike = |manifold: &Manifold| old.normal.dot(manifold.normal);
         let rank = |manifold: &Manifold| (shared(manifold), alike(manifold));
-        let follower = (0..manifolds.len()).filter(|&number| alike(&manifolds[number]) > ALIKE).max_by(
-            |&one, &other| {
-                let (one, other) = (rank(&manifolds[one]), rank(&manifolds[other]));
-                one.0.cmp(&other.0).then(one.1.total_cmp(&other.1))
-            },
-        );
-        if let Some(number) = follower {
-            followed[number].push(old);
-        }
+        (0..manifolds.len()).filter(|&number| alike(&manifolds[number]) > ALIKE).max_by(|&one, &other| {
+            let (one, other) = (rank(&manifolds[one]), rank(&manifolds[other]));
+            one.0.cmp(&other.0).then(one.1.total_cmp(&other.1))
+        })
+    };
+    let followers: Vec<Option<usize>> = past.iter().map(follower).collect();
+    let followed_by = |number: usize| {
+        let follows = move |&(_, &follower): &(&Past, &Option<usize>)| follower == Some(number);
+        past.iter().zip(&followers).filter(follows).map(|(old, _)| old)
+    };
+    manifolds
+        .iter()
+        .enumerate()
+        .map(|(number, manifold)| follow(followed_by(number), manifold, margin))
+        .collect()
+}
+
+impl Past {
+    /// Where it pressed.
+    fn points(&self) -> &[PastPoint] {
+        &self.points[..self.count]
     }
-    manifolds.iter().zip(&followed).map(|(manifold, past)| follow(past, manifold, margin)).collect()
 }
 
 impl PastPoint {
+    /// Fills the places that hold no point.
+    const NONE: PastPoint =
+        PastPoint { features: (Feature::Surface, Feature::Surface), place: DVec3::ZERO, pressure: 0.0 };
+
     /// Whether it was the same features that touched.
     fn is_of(&self, point: &ContactPoint) -> bool {
         self.features == (point.feature_a, point.feature_b)
@@ -97,16 +116,16 @@ impl PastPoint {
 
 /// The impulses that push and turn as those of the `past` did, as well as the points of `manifold` can: those of the same
 /// features; what has pressed at points that are no more goes to the others.
-fn follow(past: &[&Past], manifold: &Manifold, margin: f64) -> Remembered {
+fn follow<'a>(past: impl Iterator<Item = &'a Past> + Clone, manifold: &Manifold, margin: f64) -> Remembered {
     let points = manifold.points();
     let mut remembered = Remembered::default();
-    if past.is_empty() || points.is_empty() {
+    if past.clone().next().is_none() || points.is_empty() {
         return remembered;
     }
     let normal = manifold.normal;
     let middle = middle(points, margin);
     let mut lost = Vec::new();
-    for old in past.iter().flat_map(|old| &old.points) {
+    for old in past.clone().flat_map(Past::points) {
         match points.iter().position(|point| old.is_of(point)) {
             Some(index) => remembered.pressure[index] += old.pressure,
             None => lost.push((old.place, old.pressure)),

@@ -76,23 +76,27 @@ impl Rest {
         let centers = [a, b].map(|collider| bodies.center_pose(collider).position);
         let past: Vec<_> = pair.supports.iter().map(|support| self.past(support, centers)).collect();
         let remembered = remembered(&past, &manifolds, margin);
+        let sides = [a, b].map(|collider| self.side(bodies, collider));
+        let poses = [a, b].map(|collider| bodies.center_pose(collider).then_local(&collider.local));
         let lane = |(manifold, remembered): (Manifold, Remembered)| {
             let (normal, at) = (manifold.normal, manifold.points()[0].point);
-            let sides = [self.side(bodies, a, (normal, at)), self.side(bodies, b, (-normal, at))];
+            let rounded = |number: usize, collider: &ColliderRow, outward: DVec3| {
+                let pose = &poses[number];
+                let local = (pose.inverse_transform_point(at), pose.rotation.conjugate() * outward);
+                Side { roundness: collider.shape.roundness(local.0, local.1), ..sides[number] }
+            };
+            let sides = [rounded(0, a, normal), rounded(1, b, -normal)];
             let lane = lane(normal, manifold.points(), &sides, &terms, &remembered);
             (manifold, lane)
         };
         Some(View { contacts: manifolds.into_iter().zip(remembered).map(lane).collect(), is_pressed })
     }
 
-    /// A body as a contact sees it that touches one of its colliders at a point, where this normal points outward.
-    fn side(&self, bodies: &Bodies, collider: &ColliderRow, (outward, point): (DVec3, DVec3)) -> Side {
+    /// A body as contacts see it that touch one of its colliders where that is not round.
+    fn side(&self, bodies: &Bodies, collider: &ColliderRow) -> Side {
         let constants = &bodies.constants[collider.row];
-        let center = bodies.center_pose(collider);
-        let pose = center.then_local(&collider.local);
-        let local = (pose.inverse_transform_point(point), pose.rotation.conjugate() * outward);
         Side {
-            center: center.position,
+            center: bodies.center_pose(collider).position,
             inverse_mass: constants.inverse_mass,
             inverse_inertia: if constants.is_movable() {
                 constants.inverse_inertia(self.rows.anchors[collider.row].rotation)
@@ -100,7 +104,7 @@ impl Rest {
                 DMat3::ZERO
             },
             drift: self.rows.drift(collider.row),
-            roundness: collider.shape.roundness(local.0, local.1),
+            roundness: 0.0,
         }
     }
 

@@ -1,9 +1,9 @@
 //! parry finds the same, and so does a look along many directions.
 
 use super::super::axis;
-use super::super::convex::Convex;
+use super::super::convex::{Convex, Core};
 use super::*;
-use crate::math::{DQuat, rotation_from_vector};
+use crate::math::{DQuat, Pose, rotation_from_vector};
 use crate::shape::Shape;
 use std::f64::consts::FRAC_PI_4;
 
@@ -40,12 +40,15 @@ fn triangle_of(corners: [DVec3; 3]) -> Convex<'static> {
 /// What the kernels find, and parry's.
 fn found(corners: [DVec3; 3], shape: &Shape, pose: &Pose, limit: f64) -> (Option<Axis>, Axis) {
     let (triangle, convex) = (triangle_of(corners), Convex::of(shape).unwrap());
-    let facet = Facet::new(corners).unwrap();
+    let [a, b, c] = corners;
+    let facet = Facet::new(corners, (b - a).cross(c - a).normalize()).unwrap();
     let own = Form::with(&convex.core, pose, |form| {
         let form = form.unwrap();
         let own = facet.gap_within(form, limit);
         if let Some(axis) = own {
-            assert!(facet.gap_at_least(form) <= axis.gap.max(0.0) + 1e-12);
+            for enough in [limit, 0.1, 0.0] {
+                assert!(facet.gap_at_least(form, enough) <= axis.gap.max(0.0) + 1e-12);
+            }
         }
         own
     });
