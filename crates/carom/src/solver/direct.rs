@@ -1,19 +1,22 @@
 //! Small stiff islands, solved directly.
 //!
 //! Sweeps carry an impulse one contact further at a time: a tall stack, a heavy body on a light one would need thousands. Where an
-//! island is small and sweeps do not agree soon, this file asks for all velocities at once. With `J` the rows that press or
-//! stick, `w` what they ask for and `M` the masses, the multipliers' method (Hestenes 1969; Powell 1969) repeats
+//! island is small and sweeps do not agree soon, this module asks for all velocities at once. With `J` the rows that press or
+//! stick, `w` by how much they want to change the velocities along themselves, `M` the masses, and velocities `B u` where
+//! `B·Bᵀ = M⁻¹`, in which what cannot move is simply zero, the multipliers' method (Hestenes 1969; Powell 1969) repeats
 //!
 //! ```text
-//! (1 + BᵀJᵀDJB) δu = −BᵀJᵀD(Jv − w)        δv = B δu        δλ = −D(J(v + δv) − w)        M δv = Jᵀ δλ
+//! (1 + GᵀDG) δu = −GᵀD(Gu − w)        δλ = −D(G(u + δu) − w)        G = JB
 //! ```
 //!
-//! where `B·Bᵀ = M⁻¹`, in which what cannot move is simply zero, and each row of `D` is [`STIFFNESS`] times its effective mass:
-//! two or three rounds leave nothing. Then impulses that pull are set to zero, those outside Coulomb's cone are put back on
-//! it, and the search goes on with the rows that press or stick now, after some sweeps (as in Silcowitz, Niebe and Erleben 2009, *Projected Gauss–Seidel subspace minimization*).
+//! where each row of `D` is [`STIFFNESS`] times its effective mass: two or three rounds leave nothing, if the rows are the right
+//! ones. After each round impulses that pull are set to zero, those outside Coulomb's cone are put back on it, and some sweeps
+//! follow (as in Silcowitz, Niebe and Erleben 2009, *Projected Gauss–Seidel subspace minimization*). As long as that helps, the
+//! rows stay as they are, although some are wrong: what they do wrong is near them, and sweeps undo it, while another set of rows
+//! is another matrix. When it helps no more, the search goes on with the rows that press or stick now.
 //!
-//! The matrix has a block of six for each body and one for each pair in contact; it is factored in an order of least degree,
-//! without pivots, as it is positive definite.
+//! The matrix (`direct/matrix.rs`) has a block of six for each body and one for each pair in contact; it is factored in an order of
+//! least degree (`direct/elimination.rs`), without pivots, as it is positive definite.
 
 mod contact;
 mod elimination;
@@ -21,7 +24,7 @@ mod matrix;
 mod mover;
 mod vector;
 
-use super::bundle::{Bundle, field};
+use super::bundle::{Bundle, POINTS, field};
 use super::lanes::Row;
 use contact::Contact;
 use elimination::Elimination;
@@ -40,12 +43,18 @@ const WORK: usize = 1_000_000;
 /// Rows' stiffness in units of their effective mass.
 const STIFFNESS: f64 = 1e5;
 
-/// Rounds of multipliers for one set of rows, and sets of rows that are tried.
-const MULTIPLIERS: usize = 3;
+/// Sets of rows that are tried.
 const SETS: usize = 12;
 
-/// Sweeps between two sets.
-const SWEEPS: usize = 8;
+/// Sweeps after each round of multipliers.
+const SWEEPS: usize = 3;
+
+/// A round helps if the last sweep after it changes no velocity by more than this share of what it was.
+const HELPS: f64 = 0.4;
+
+/// Velocities that change by more than this, in units of the exactness, have run away: more rows press than bodies can obey, as
+/// in piles, and no other set will do.
+const RUNAWAY: f64 = 1e10;
 
 /// An island that is being solved.
 #[derive(Default)]
@@ -99,35 +108,34 @@ impl Island {
         if self.movers.is_empty() {
             return true;
         }
-        let clock = std::time::Instant::now();
         let elimination = self.elimination();
-        let work = elimination.work();
+        let sets = SETS.min(1 + WORK / elimination.work().max(1));
         let mut matrix = Matrix::new(elimination);
-        eprint!("n {} c {} work {work} order {:.0?}", self.movers.len(), self.contacts.len(), clock.elapsed());
-        let sets = SETS.min(1 + WORK / work.max(1));
+        let mut before = f64::INFINITY;
         for set in 0..sets {
             self.activate(set == 0);
-            let t0 = clock.elapsed();
             self.assemble(&mut matrix);
-            let t1 = clock.elapsed();
             matrix.factor();
-            let t2 = clock.elapsed();
-            for _ in 0..MULTIPLIERS {
+            loop {
                 self.step(&matrix);
+                self.project();
+                let mut change = f64::INFINITY;
+                for _ in 0..SWEEPS {
+                    change = self.sweep();
+                    if change <= exactness && self.residual() <= exactness {
+                        return true;
+                    }
+                }
+                if change > RUNAWAY * exactness {
+                    return false;
+                }
+                let helps = change < HELPS * before;
+                before = change;
+                if !helps {
+                    break;
+                }
             }
-            self.project();
-            let t3 = clock.elapsed();
-            eprint!(" | {:.1e} {:.0?} {:.0?} {:.0?}", self.residual(), t1 - t0, t2 - t1, t3 - t2);
-            if self.residual() <= exactness {
-                eprintln!(" ok {:.0?}", clock.elapsed());
-                return true;
-            }
-            for _ in 0..SWEEPS {
-                self.sweep();
-            }
-            eprint!(" {:.0?}", clock.elapsed() - t3);
         }
-        eprintln!(" FAIL {:.0?}", clock.elapsed());
         false
     }
 
@@ -140,15 +148,9 @@ impl Island {
 
     /// How far the worst unknown is from what it asks for, m/s.
     fn residual(&self) -> f64 {
-        let mut residual = 0.0_f64;
-        for contact in &self.contacts {
-            for ((impulse, _), unknown) in contact.answer(&self.changes).into_iter().zip(&contact.unknowns) {
-                if unknown.mass > 0.0 {
-                    residual = residual.max((impulse - unknown.impulse).abs() / unknown.mass);
-                }
-            }
-        }
-        residual
+        let of_contact =
+            |contact: &Contact| contact.distance(contact.answer(&self.changes).map(|(impulse, _)| impulse));
+        self.contacts.iter().map(of_contact).fold(0.0, f64::max)
     }
 
     /// Finds which unknowns press or stick, and lets the others have the impulses that they can exert.
@@ -159,7 +161,7 @@ impl Island {
         for contact in &mut self.contacts {
             let is_pressed = contact.is_pressed();
             for (number, (impulse, is_active)) in contact.answer(&self.changes).into_iter().enumerate() {
-                let is_open = number < super::bundle::POINTS || !is_pressed;
+                let is_open = number < POINTS || !is_pressed;
                 let is_active = is_active || (first_time && is_open && contact.could_act(number));
                 contact.unknowns[number].is_active = is_active;
                 if !is_active {
@@ -205,9 +207,10 @@ impl Island {
         }
     }
 
-    /// One sweep of Gauss–Seidel, which tells the rows that press and stick from those that do not.
-    fn sweep(&mut self) {
-        self.contacts.iter_mut().for_each(|contact| contact.sweep(&mut self.changes));
+    /// One sweep of Gauss–Seidel, which tells the rows that press and stick from those that do not; the largest change of a velocity,
+    /// m/s.
+    fn sweep(&mut self) -> f64 {
+        self.contacts.iter_mut().map(|contact| contact.sweep(&mut self.changes)).fold(0.0, f64::max)
     }
 
     /// Puts impulses back to what contacts can exert.

@@ -9,6 +9,11 @@ use crate::solver::lanes::Row;
 /// A point that is out of reach asks for less than this, m/s.
 const NEVER: f64 = -1e20;
 
+/// Friction's unknowns, along both tangents and about the normal.
+const FIRST: usize = POINTS;
+const SECOND: usize = POINTS + 1;
+const TWIST: usize = POINTS + 2;
+
 /// One impulse that is asked for.
 #[derive(Clone, Debug)]
 pub(crate) struct Unknown {
@@ -57,7 +62,8 @@ impl Contact {
             let largest = if number < POINTS { f64::INFINITY } else { get(field::MASSES[number]) };
             let is_real = get(field::MASSES[number]) > 0.0 && response > 0.0;
             let mass = if is_real { (1.0 / response).min(largest) } else { 0.0 };
-            let before = [0, 1].map(|side| dot(&directions[side], &velocity_of(&velocities[rows[side] as usize])));
+            let before =
+                [0, 1].map(|side| dot(&directions[side], &velocity_of(&velocities[rows[side] as usize])));
             let wanted = wanted - before[0] - before[1];
             Unknown { sides, wanted, mass, impulse: get(field::IMPULSES[number]), is_active: false }
         };
@@ -65,14 +71,14 @@ impl Contact {
             [join(-direction, -a.cross(direction)), join(direction, b.cross(direction))]
         };
         let arms = [outward(vector(field::FRICTION_ARM_A)), outward(vector(field::FRICTION_ARM_B))];
-        let unknowns = std::array::from_fn(|number| match number - number.min(POINTS) {
-            _ if number < POINTS => {
+        let unknowns = std::array::from_fn(|number| match number {
+            0..POINTS => {
                 let at = |line: usize| field::of_point(number, line);
                 let arms = [outward(vector(at(field::ARM_A))), outward(vector(at(field::ARM_B)))];
                 unknown(along(normal, arms), get(at(field::LEAST)), number)
             }
-            0 => unknown(along(first, arms), -get(field::SWING), number),
-            1 => unknown(along(second, arms), -get(field::SWING + 1), number),
+            FIRST => unknown(along(first, arms), -get(field::SWING), number),
+            SECOND => unknown(along(second, arms), -get(field::SWING + 1), number),
             _ => unknown([join(DVec3::ZERO, -normal), join(DVec3::ZERO, normal)], 0.0, number),
         });
         let [a, b] = numbers;
@@ -120,7 +126,7 @@ impl Contact {
             *impulse = impulse.max(0.0);
         }
         let (friction, twist) = self.limits();
-        for (numbers, [most, sliding]) in [(POINTS..POINTS + 2, friction), (POINTS + 2..POINTS + 3, twist)] {
+        for (numbers, [most, sliding]) in [(FIRST..TWIST, friction), (TWIST..field::ROWS, twist)] {
             let size =
                 answer[numbers.clone()].iter().map(|(impulse, _)| impulse * impulse).sum::<f64>().sqrt();
             let slides = size > most || most == 0.0;
@@ -144,7 +150,8 @@ impl Contact {
     fn limits(&self) -> ([f64; 2], [f64; 2]) {
         let points = &self.unknowns[..POINTS];
         let pressure: f64 = points.iter().map(|unknown| unknown.impulse).sum();
-        let moment: f64 = points.iter().zip(self.levers).map(|(unknown, lever)| unknown.impulse * lever).sum();
+        let moment: f64 =
+            points.iter().zip(self.levers).map(|(unknown, lever)| unknown.impulse * lever).sum();
         let both = |load: f64| [self.static_friction * load, self.dynamic_friction * load];
         (both(pressure), both(moment))
     }
@@ -154,15 +161,31 @@ impl Contact {
         self.unknowns[..POINTS].iter().any(|unknown| unknown.impulse > 0.0)
     }
 
-    /// Gives each unknown in turn what it lacks, as far as it may push: a step of Gauss and Seidel's.
-    pub fn sweep(&mut self, changes: &mut [Vector]) {
+    /// Gives each unknown in turn what it lacks, as far as it may push: a step of Gauss and Seidel's. Returns by how much that has
+    /// changed the velocity of one, m/s.
+    pub fn sweep(&mut self, changes: &mut [Vector]) -> f64 {
+        let before = self.impulses();
         for number in 0..field::ROWS {
-            let unknown = &self.unknowns[number];
-            let impulse = unknown.impulse + unknown.mass * self.lack(number, changes);
+            let Unknown { impulse, mass, .. } = self.unknowns[number];
+            if mass == 0.0 {
+                continue;
+            }
+            let impulse = impulse + mass * self.lack(number, changes);
             // At once: what a point out of reach asks for would leave nothing of the velocity but its rounding.
             self.set(number, if number < POINTS { impulse.max(0.0) } else { impulse }, changes);
         }
         self.project_friction(changes);
+        self.distance(before)
+    }
+
+    pub fn impulses(&self) -> [f64; field::ROWS] {
+        std::array::from_fn(|number| self.unknowns[number].impulse)
+    }
+
+    /// How far the velocity of one of its unknowns is from what these impulses would make it, each for itself, m/s.
+    pub fn distance(&self, impulses: [f64; field::ROWS]) -> f64 {
+        let real = self.unknowns.iter().zip(impulses).filter(|(unknown, _)| unknown.mass > 0.0);
+        real.map(|(unknown, impulse)| (impulse - unknown.impulse).abs() / unknown.mass).fold(0.0, f64::max)
     }
 
     /// Puts impulses back to what it can exert.
@@ -175,15 +198,15 @@ impl Contact {
 
     fn project_friction(&mut self, changes: &mut [Vector]) {
         let (friction, twist) = self.limits();
-        let [x, y, turn] = [0, 1, 2].map(|number| self.unknowns[POINTS + number].impulse);
+        let [x, y, turn] = [FIRST, SECOND, TWIST].map(|number| self.unknowns[number].impulse);
         let size = (x * x + y * y).sqrt();
         if size > friction[0] {
             let share = (friction[1] / size).min(1.0);
-            self.set(POINTS, share * x, changes);
-            self.set(POINTS + 1, share * y, changes);
+            self.set(FIRST, share * x, changes);
+            self.set(SECOND, share * y, changes);
         }
         if turn.abs() > twist[0] {
-            self.set(POINTS + 2, turn.clamp(-twist[1], twist[1]), changes);
+            self.set(TWIST, turn.clamp(-twist[1], twist[1]), changes);
         }
     }
 }

@@ -1,7 +1,9 @@
 //! Systems of equations with a block of six for each body, few of which are neighbours.
 
 use super::elimination::Elimination;
-use super::vector::{Block, Vector, ZERO, add_outer, add_product, add_scaled, add_transposed, times, transposed};
+use super::vector::{
+    Block, Vector, ZERO, add_outer, add_product, add_scaled, add_transposed, times, transposed,
+};
 
 /// A symmetric positive definite matrix `A` of blocks, then its factor `U` in its place: `A = Uᵀ·U`.
 ///
