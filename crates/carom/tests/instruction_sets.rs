@@ -183,11 +183,11 @@ const THREADS: [u32; 3] = [1, 2, 4];
 /// The hashes of states and events of [pile, mesh, gas, cradle, stack, crowd].
 const EXPECTED: [[u64; 2]; 6] = [
     [0x47cf_8864_ca82_dbbe, 0xb230_2047_de75_f892],
-    [0x2ec5_fec8_991e_442d, 0x6f9e_f57d_9fcc_a6ef],
+    [0xb55b_410e_252b_cfe4, 0xe463_b3f0_c4f5_677a],
     [0xb7c9_a597_8de9_22c8, 0x12d9_d339_e94d_7830],
     [0x495a_c80e_1b79_9fde, 0x046b_b65b_a085_2bf1],
-    [0xc2b1_37db_840a_fc02, 0xcf51_5fc0_50bf_0ded],
-    [0xb4ac_0e0e_74e5_e8f5, 0x1fb6_3b24_65e3_dc94],
+    [0x0d77_69c2_0771_fd23, 0xef2d_21fc_63d3_dcf6],
+    [0x3d93_e53b_7a14_9c4a, 0x12ea_fcf9_ae83_7d23],
 ];
 
 #[test]
