@@ -10,7 +10,7 @@
 //! ```
 //!
 //! where each row of `D` is [`STIFFNESS`] times its effective mass: two or three rounds leave nothing, if the rows are the right
-//! ones. After every two rounds impulses that pull are set to zero, those outside Coulomb's cone are put back on it, and some sweeps
+//! ones. After [`MULTIPLIERS`] rounds impulses that pull are set to zero, those outside Coulomb's cone are put back on it, and some sweeps
 //! follow (as in Silcowitz, Niebe and Erleben 2009, *Projected Gauss–Seidel subspace minimization*). As long as that helps, the
 //! rows stay as they are, although some are wrong: what they do wrong is near them, and sweeps undo it, while another set of rows
 //! is another matrix. When it helps no more, the search goes on with the rows that press or stick now.
@@ -45,7 +45,7 @@ const STIFFNESS: f64 = 1e5;
 
 /// Rounds of multipliers between two looks at what contacts can exert: one would leave little at each contact of a tall stack, but
 /// much from its bottom to its top.
-const MULTIPLIERS: usize = 2;
+const MULTIPLIERS: usize = 3;
 
 /// Sets of rows that are tried.
 const SETS: usize = 12;
@@ -108,8 +108,6 @@ impl Island {
 
     /// Solves until no unknown's velocity is further than `exactness` (m/s) from what it asks for; false if it seems that this will
     /// not be. Then what has been found is of no use.
-    ///
-    /// The first look is never enough, for what tall stacks hide ([`MULTIPLIERS`]).
     pub fn solve(&mut self, exactness: f64) -> bool {
         if self.movers.is_empty() {
             return true;
@@ -125,14 +123,11 @@ impl Island {
             loop {
                 (0..MULTIPLIERS).for_each(|_| self.step(&matrix));
                 self.project();
-                let mut change = f64::INFINITY;
-                for _ in 0..SWEEPS {
-                    change = self.sweep();
-                    let has_repeated = before < f64::INFINITY;
-                    if has_repeated && change <= exactness && self.residual() <= exactness {
-                        return true;
-                    }
+                // Not after the sweeps: they smooth what is left, which then seems little everywhere.
+                if self.residual() <= exactness {
+                    return true;
                 }
+                let change = (0..SWEEPS).fold(0.0, |_, _| self.sweep());
                 if change > RUNAWAY * exactness {
                     return false;
                 }
