@@ -183,11 +183,11 @@ const THREADS: [u32; 3] = [1, 2, 4];
 /// The hashes of states and events of [pile, mesh, gas, cradle, stack, crowd].
 const EXPECTED: [[u64; 2]; 6] = [
     [0x47cf_8864_ca82_dbbe, 0xb230_2047_de75_f892],
-    [0xb55b_410e_252b_cfe4, 0xe463_b3f0_c4f5_677a],
+    [0x838c_7c83_d2c6_1841, 0x1776_e9b1_aa57_9f3a],
     [0xb7c9_a597_8de9_22c8, 0x12d9_d339_e94d_7830],
     [0x495a_c80e_1b79_9fde, 0x046b_b65b_a085_2bf1],
-    [0x0d77_69c2_0771_fd23, 0xef2d_21fc_63d3_dcf6],
-    [0x3d93_e53b_7a14_9c4a, 0x12ea_fcf9_ae83_7d23],
+    [0x268d_7286_52b0_6ad1, 0xa2cb_7063_f535_7099],
+    [0xdca4_cdeb_7a01_eeb0, 0x29a6_4e8e_8628_c207],
 ];
 
 #[test]
