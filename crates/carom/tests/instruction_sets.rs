@@ -182,12 +182,12 @@ const THREADS: [u32; 3] = [1, 2, 4];
 
 /// The hashes of states and events of [pile, mesh, gas, cradle, stack, crowd].
 const EXPECTED: [[u64; 2]; 6] = [
-    [0x0ef7_d581_d12d_26e5, 0x3319_459e_259e_319f],
-    [0x54fd_4541_45cb_9074, 0x9ea1_e918_d1b7_2f11],
+    [0x87e0_5259_c072_b902, 0x3d43_e0f3_5b94_a7ee],
+    [0xe9b7_8977_ac96_ad8b, 0x10e0_5185_5b6e_8330],
     [0xb7c9_a597_8de9_22c8, 0x12d9_d339_e94d_7830],
     [0x495a_c80e_1b79_9fde, 0x046b_b65b_a085_2bf1],
-    [0x264a_e158_f520_2bf6, 0x5551_fa50_45ec_dc18],
-    [0x7e0a_8c17_24fb_0e9d, 0x2919_7bf8_3754_859e],
+    [0xc211_5970_f97e_5493, 0xcb75_92be_0feb_0ae1],
+    [0x3b05_4022_2842_2e75, 0x1e98_19ce_ff8e_f9b5],
 ];
 
 #[test]

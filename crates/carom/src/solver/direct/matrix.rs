@@ -1,202 +1,121 @@
 //! Systems of equations with a block of six for each body, few of which are neighbours.
 
-use super::BODIES;
+use super::elimination::Elimination;
+use super::vector::{
+    Block, Vector, ZERO, add_outer, add_product, add_scaled, add_transposed, times, transposed,
+};
 
-pub(crate) type Vector = [f64; 6];
-type Block = [[f64; 6]; 6];
-
-/// Bodies of an island, a bit each.
-type Set = [u64; BODIES / 64];
-
-pub(crate) fn dot(a: &Vector, b: &Vector) -> f64 {
-    (0..6).map(|axis| a[axis] * b[axis]).sum()
-}
-
-pub(crate) fn add_scaled(to: &mut Vector, v: &Vector, by: f64) {
-    (0..6).for_each(|axis| to[axis] += by * v[axis]);
-}
-
-/// A symmetric positive definite matrix of blocks, and its factors `L·Lᵀ`.
+/// A symmetric positive definite matrix `A` of blocks, then its factor `U` in its place: `A = Uᵀ·U`.
+///
+/// Only the upper triangle is kept, row after row. Of the factor's blocks on the diagonal it is the inverse.
 pub(crate) struct Matrix {
-    count: usize,
-    /// Place of each block of the lower triangle in `blocks`, row after row; or [`ABSENT`].
-    places: Vec<u32>,
+    elimination: Elimination,
     blocks: Vec<Block>,
-    /// Bodies in the order in which they are eliminated, and the neighbours that each then still has.
-    order: Vec<usize>,
-    later: Vec<Vec<usize>>,
-    neighbors: Vec<Set>,
 }
-
-const ABSENT: u32 = u32::MAX;
 
 impl Matrix {
-    pub fn new(count: usize) -> Self {
-        Self {
-            count,
-            places: vec![ABSENT; count * count],
-            blocks: Vec::new(),
-            order: Vec::new(),
-            later: Vec::new(),
-            neighbors: vec![[0; BODIES / 64]; count],
+    pub fn new(elimination: Elimination) -> Self {
+        let blocks = vec![[ZERO; 6]; elimination.columns.len()];
+        Self { elimination, blocks }
+    }
+
+    /// Makes it the identity.
+    pub fn reset(&mut self) {
+        self.blocks.fill([ZERO; 6]);
+        for &start in &self.elimination.starts[..self.elimination.order.len()] {
+            (0..6).for_each(|axis| self.blocks[start][axis][axis] = 1.0);
         }
     }
 
-    pub fn clear(&mut self) {
-        self.places.fill(ABSENT);
-        self.neighbors.fill([0; BODIES / 64]);
-        self.blocks.clear();
-        self.order.clear();
-        self.later.clear();
-    }
-
-    /// The block of rows `row` and columns `column`.
-    fn block(&mut self, row: usize, column: usize) -> &mut Block {
-        let place = &mut self.places[row * self.count + column];
-        if *place == ABSENT {
-            *place = self.blocks.len() as u32;
-            self.blocks.push([[0.0; 6]; 6]);
-            if row != column {
-                self.neighbors[row][column / 64] |= 1 << (column % 64);
+    /// Adds `Jᵀ·D·J` of two neighbours, or twice the same body where it has only one: each row of `J` with its number of the diagonal
+    /// `D`.
+    pub fn add<'a>(&mut self, bodies: [usize; 2], rows: impl Iterator<Item = (&'a [Vector; 2], f64)>) {
+        let places = bodies.map(|body| self.elimination.places[body]);
+        let [first, second] = if places[0] < places[1] { [0, 1] } else { [1, 0] };
+        let diagonal = places.map(|place| self.elimination.starts[place]);
+        let common = (bodies[0] != bodies[1]).then(|| self.find(places[first], places[second]));
+        for (sides, by) in rows {
+            for side in 0..2 {
+                add_outer(&mut self.blocks[diagonal[side]], (&sides[side], &sides[side]), by);
             }
-        }
-        let place = *place as usize;
-        &mut self.blocks[place]
-    }
-
-    fn at(&self, row: usize, column: usize) -> &Block {
-        &self.blocks[self.places[row * self.count + column] as usize]
-    }
-
-    /// Adds the identity to a body's block.
-    pub fn add_identity(&mut self, index: usize) {
-        let block = self.block(index, index);
-        (0..6).for_each(|axis| block[axis][axis] += 1.0);
-    }
-
-    /// Adds `stiffness` times the product of two bodies' vectors to the block that they have in common.
-    pub fn add_product(
-        &mut self,
-        (row, column): (usize, usize),
-        (left, right): (&Vector, &Vector),
-        stiffness: f64,
-    ) {
-        let block = self.block(row, column);
-        for i in 0..6 {
-            for j in 0..6 {
-                block[i][j] += stiffness * left[i] * right[j];
+            if let Some(common) = common {
+                add_outer(&mut self.blocks[common], (&sides[first], &sides[second]), by);
             }
         }
     }
 
-    /// Factors in place: the block of a body becomes `L`, those of its later neighbours `B·L⁻ᵀ`.
-    ///
-    /// Returns about twice the number of blocks that were multiplied.
-    pub fn factor(&mut self) -> usize {
-        let mut work = 0;
-        let mut left: Set = std::array::from_fn(|word| {
-            let count = self.count.saturating_sub(64 * word).min(64);
-            if count == 64 { u64::MAX } else { (1 << count) - 1 }
-        });
-        let both = |one: &Set, other: &Set| -> Set { std::array::from_fn(|word| one[word] & other[word]) };
-        let degree = |neighbors: &[Set], left: &Set, body: usize| -> u32 {
-            both(&neighbors[body], left).iter().map(|word| word.count_ones()).sum()
-        };
-        let mut degrees: Vec<u32> =
-            (0..self.count).map(|body| degree(&self.neighbors, &left, body)).collect();
-        while let Some(pivot) = bits(left).min_by_key(|&body| degrees[body]) {
-            left[pivot / 64] &= !(1 << (pivot % 64));
-            let later: Vec<usize> = bits(both(&self.neighbors[pivot], &left)).collect();
-            cholesky(self.block(pivot, pivot));
-            let factor = *self.at(pivot, pivot);
-            for &row in &later {
-                let block = self.block(row, pivot);
-                block.iter_mut().for_each(|line| forward(&factor, line));
+    /// The block of a row in a later column.
+    fn find(&self, row: usize, column: usize) -> usize {
+        let blocks = self.elimination.row(row);
+        blocks.start + self.elimination.columns[blocks].partition_point(|&it| it < column)
+    }
+
+    /// Factors in place.
+    pub fn factor(&mut self) {
+        let Elimination { columns, starts, order, .. } = &self.elimination;
+        for place in 0..order.len() {
+            let row = self.elimination.row(place);
+            let (known, open) = self.blocks.split_at_mut(row.end);
+            let Some((pivot, later)) = known[row.start..].split_first_mut() else { continue };
+            *pivot = inverse_factor(*pivot);
+            for block in later.iter_mut() {
+                let before = std::mem::replace(block, [ZERO; 6]);
+                add_product(block, (pivot, &before), 1.0);
             }
-            for (number, &row) in later.iter().enumerate() {
-                for &column in &later[..=number] {
-                    let (one, other) = (*self.at(row, pivot), *self.at(column, pivot));
-                    let target = self.block(row, column);
-                    for i in 0..6 {
-                        for j in 0..6 {
-                            target[i][j] -= dot(&one[i], &other[j]);
-                        }
+            let reached = &columns[row.start + 1..row.end];
+            for (number, (&first, left)) in reached.iter().zip(later.iter()).enumerate() {
+                let mut target = starts[first];
+                for (&second, right) in reached[number..].iter().zip(&later[number..]) {
+                    while columns[target] < second {
+                        target += 1;
                     }
-                    if row != column {
-                        let transposed = std::array::from_fn(|i| std::array::from_fn(|j| target[j][i]));
-                        *self.block(column, row) = transposed;
-                    }
+                    add_product(&mut open[target - row.end], (left, right), -1.0);
                 }
             }
-            later.iter().for_each(|&body| degrees[body] = degree(&self.neighbors, &left, body));
-            work += later.len() * later.len();
-            self.order.push(pivot);
-            self.later.push(later);
         }
-        work
     }
 
-    /// Replaces `values` by the solution.
+    /// Replaces `values`, one for each body, by the solution.
     pub fn solve(&self, values: &mut [Vector]) {
-        for (&pivot, later) in self.order.iter().zip(&self.later) {
-            forward(self.at(pivot, pivot), &mut values[pivot]);
-            let known = values[pivot];
-            for &row in later {
-                let block = self.at(row, pivot);
-                (0..6).for_each(|axis| values[row][axis] -= dot(&block[axis], &known));
+        let Elimination { columns, order, .. } = &self.elimination;
+        let mut ordered: Vec<Vector> = order.iter().map(|&body| values[body]).collect();
+        for place in 0..order.len() {
+            let row = self.elimination.row(place);
+            let mut value = ZERO;
+            add_transposed(&mut value, (&self.blocks[row.start], &ordered[place]), 1.0);
+            ordered[place] = value;
+            for index in row.skip(1) {
+                add_transposed(&mut ordered[columns[index]], (&self.blocks[index], &value), -1.0);
             }
         }
-        for (&pivot, later) in self.order.iter().zip(&self.later).rev() {
-            let mut value = values[pivot];
-            for &row in later {
-                let block = self.at(row, pivot);
-                (0..6).for_each(|axis| add_scaled(&mut value, &block[axis], -values[row][axis]));
+        for place in (0..order.len()).rev() {
+            let row = self.elimination.row(place);
+            let mut value = ordered[place];
+            for index in row.clone().skip(1) {
+                add_scaled(&mut value, &times(&self.blocks[index], &ordered[columns[index]]), -1.0);
             }
-            backward(self.at(pivot, pivot), &mut value);
-            values[pivot] = value;
+            ordered[place] = times(&self.blocks[row.start], &value);
+        }
+        order.iter().zip(ordered).for_each(|(&body, value)| values[body] = value);
+    }
+}
+
+/// `U⁻¹` of the upper triangle `U` with `A = Uᵀ·U`.
+///
+/// Cholesky's steps lead from `A` to `U`, and from the identity to `U⁻ᵀ`.
+fn inverse_factor(mut rest: Block) -> Block {
+    let mut inverse = [ZERO; 6];
+    (0..6).for_each(|axis| inverse[axis][axis] = 1.0);
+    for pivot in 0..6 {
+        let scale = 1.0 / rest[pivot][pivot].max(f64::MIN_POSITIVE).sqrt();
+        let [line, inverse_line] = [rest[pivot], inverse[pivot]].map(|line| line.map(|it| it * scale));
+        inverse[pivot] = inverse_line;
+        for row in pivot + 1..6 {
+            add_scaled(&mut rest[row], &line, -line[row]);
+            add_scaled(&mut inverse[row], &inverse_line, -line[row]);
         }
     }
-}
-
-/// The bits that are set, from the lowest.
-fn bits(set: Set) -> impl Iterator<Item = usize> {
-    set.into_iter().enumerate().flat_map(|(word, mut mask)| {
-        std::iter::from_fn(move || {
-            (mask != 0).then(|| {
-                let bit = mask.trailing_zeros() as usize;
-                mask &= mask - 1;
-                64 * word + bit
-            })
-        })
-    })
-}
-
-/// `A = L·Lᵀ` in place; the upper triangle is left as it was.
-fn cholesky(block: &mut Block) {
-    for column in 0..6 {
-        for row in column..6 {
-            let known: f64 = (0..column).map(|k| block[row][k] * block[column][k]).sum();
-            let rest = block[row][column] - known;
-            block[row][column] =
-                if row == column { rest.max(f64::MIN_POSITIVE).sqrt() } else { rest / block[column][column] };
-        }
-    }
-}
-
-/// Solves `L·x = v` in place.
-fn forward(factor: &Block, v: &mut Vector) {
-    for row in 0..6 {
-        let known: f64 = (0..row).map(|k| factor[row][k] * v[k]).sum();
-        v[row] = (v[row] - known) / factor[row][row];
-    }
-}
-
-/// Solves `Lᵀ·x = v` in place.
-fn backward(factor: &Block, v: &mut Vector) {
-    for row in (0..6).rev() {
-        let known: f64 = (row + 1..6).map(|k| factor[k][row] * v[k]).sum();
-        v[row] = (v[row] - known) / factor[row][row];
-    }
+    transposed(&inverse)
 }
 
 #[cfg(test)]
@@ -233,31 +152,26 @@ mod tests {
     #[test]
     fn factors_solve_what_elimination_solves_on_any_graph() {
         let mut random = Random(61);
-        let mut matrix = Matrix::new(0);
         for round in 0..60 {
             let count = [1, 2, 3, 7, 20, 64, 65, 70][round % 8];
-            if round % 3 != 1 || matrix.count != count {
-                matrix = Matrix::new(count);
-            }
+            let pairs: Vec<[usize; 2]> =
+                (0..=random.below(4 * count)).map(|_| [0; 2].map(|_| random.below(count))).collect();
+            let neighbors = pairs.iter().copied().filter(|[one, other]| one != other);
+            let mut matrix = Matrix::new(Elimination::new(count, neighbors));
             // The second time in the same place: nothing of the first may be left.
             for _ in 0..2 {
-                matrix.clear();
+                matrix.reset();
                 let mut whole = vec![vec![0.0; 6 * count]; 6 * count];
-                for body in 0..count {
-                    matrix.add_identity(body);
-                    (6 * body..6 * body + 6).for_each(|axis| whole[axis][axis] += 1.0);
-                }
-                for _ in 0..random.below(4 * count) + 1 {
-                    let vector = |random: &mut Random| std::array::from_fn(|_| random.range(-1.0, 1.0));
-                    let (one, other) = (random.below(count), random.below(count));
-                    let mut pushes = vec![(one, vector(&mut random))];
-                    if other != one {
-                        pushes.push((other, vector(&mut random)));
+                (0..6 * count).for_each(|axis| whole[axis][axis] += 1.0);
+                for &[one, other] in pairs.iter().skip(random.below(3)) {
+                    let mut sides = [0; 2].map(|_| [0; 6].map(|_| random.range(-1.0, 1.0)));
+                    if other == one {
+                        sides[1] = ZERO;
                     }
                     let stiffness = 10.0_f64.powf(random.range(-1.0, 3.0));
-                    for (i, left) in &pushes {
-                        for (j, right) in &pushes {
-                            matrix.add_product((*i, *j), (left, right), stiffness);
+                    matrix.add([one, other], std::iter::once((&sides, stiffness)));
+                    for (i, left) in [one, other].into_iter().zip(&sides) {
+                        for (j, right) in [one, other].into_iter().zip(&sides) {
                             for x in 0..6 {
                                 for y in 0..6 {
                                     whole[6 * i + x][6 * j + y] += stiffness * left[x] * right[y];
