@@ -198,28 +198,27 @@ impl Constants {
     /// `ω = R I⁻¹Rᵀ L` of an angular momentum, without the driven spin, rad/s.
     #[inline]
     pub fn free_spin(&self, rotation: DQuat, momentum: DVec3) -> DVec3 {
-        self.free_spins(rotation, [momentum])[0]
+        if self.rotor.is_isotropic() || momentum == DVec3::ZERO {
+            return momentum * self.rotor.inverse_moments.x;
+        }
+        self.spin_about(&self.principal_axes(rotation), momentum)
+    }
+
+    /// The same where the principal axes in the world are known.
+    #[inline]
+    pub fn spin_about(&self, axes: &DMat3, momentum: DVec3) -> DVec3 {
+        *axes * (axes.mul_transpose_vec3(momentum) * self.rotor.inverse_moments)
+    }
+
+    /// The principal axes in the world.
+    pub fn principal_axes(&self, rotation: DQuat) -> DMat3 {
+        DMat3::from_quat(rotation * self.rotor.principal)
     }
 
     /// Whether the body turns about all axes alike, so that turning does not change its angular velocity.
     #[inline]
     pub fn is_isotropic(&self) -> bool {
         self.rotor.is_isotropic()
-    }
-
-    /// Those of several angular momenta at one orientation.
-    #[inline]
-    pub fn free_spins<const N: usize>(&self, rotation: DQuat, momenta: [DVec3; N]) -> [DVec3; N] {
-        if self.rotor.is_isotropic() {
-            return momenta.map(|momentum| momentum * self.rotor.inverse_moments.x);
-        }
-        self.anisotropic_spins(rotation, momenta)
-    }
-
-    fn anisotropic_spins<const N: usize>(&self, rotation: DQuat, momenta: [DVec3; N]) -> [DVec3; N] {
-        let inverse = self.rotor.inverse_moments;
-        let axes = DMat3::from_quat(rotation * self.rotor.principal);
-        momenta.map(|momentum| axes * (axes.mul_transpose_vec3(momentum) * inverse))
     }
 
     /// The driven spin in the world, rad/s.

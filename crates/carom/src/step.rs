@@ -25,7 +25,7 @@ pub mod profile;
 pub(crate) mod rest;
 
 use crate::impacts::time_of_impact::RestLaw;
-use crate::ledger::{contacts, flights, impacts as collisions};
+use crate::ledger::{contacts, impacts as collisions};
 use crate::world::World;
 use events::Events;
 use profile::Phase;
@@ -57,7 +57,6 @@ pub(crate) fn step(world: &mut World, time: f64) {
     let _finish = profile::phase(Phase::Finish);
     contacts::settle(&mut world.bodies);
     collisions::book(&mut world.bodies, &impacts);
-    flights::book_falls(&mut world.bodies);
 
     world.rest.push_out(&mut world.bodies, law);
     finish::quarantine(world);

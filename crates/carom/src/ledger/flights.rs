@@ -60,19 +60,6 @@ pub(crate) fn flown(bodies: &mut Bodies, row: usize, before: &RigidState, time: 
     }
 }
 
-/// Books what gravity has given to bodies in the step: `m·g` times how long it has acted, at their mean places.
-pub(crate) fn book_falls(bodies: &mut Bodies) {
-    let Some(journal) = bodies.journal.as_deref_mut().filter(|journal| journal.gravity != DVec3::ZERO) else {
-        return;
-    };
-    for (constants, tally) in bodies.constants.iter().zip(&mut journal.tallies) {
-        let pull = weight(constants, journal.gravity);
-        let (impulse, moment) = (pull * tally.fall_time, tally.fall_place.cross(pull));
-        journal.posts.gravity.add(impulse, moment);
-        tally.get(impulse, moment, 0.0);
-    }
-}
-
 /// Whether there is something to book where a body only drifts along: contacts that ask for its way, forces that have cancelled
 /// out, or gravity, which changes its potential energy.
 #[inline]
@@ -84,7 +71,8 @@ pub(crate) fn minds_drifting(bodies: &Bodies, row: usize) -> bool {
 }
 
 /// Gravity's force on a body, N; nothing on what has infinite mass.
-fn weight(constants: &Constants, gravity: DVec3) -> DVec3 {
+#[inline]
+pub(super) fn weight(constants: &Constants, gravity: DVec3) -> DVec3 {
     if constants.inverse_mass > 0.0 {
         constants.mass() * constants.gravity_factor * gravity
     } else {
@@ -93,12 +81,13 @@ fn weight(constants: &Constants, gravity: DVec3) -> DVec3 {
 }
 
 impl Flight<'_> {
-    /// Whether contacts and gravity alone act on it, evenly, and it turns about all axes alike: so most of what rests.
+    /// Whether contacts and gravity alone act on it, evenly, and its angular velocity is that of its angular momentum: so most of
+    /// what rests, and of what falls.
     #[inline]
     fn is_plain(&self) -> bool {
         let constants = self.constants;
-        self.path == Path::Steady
-            && constants.is_isotropic()
+        self.acts
+            && (constants.is_isotropic() || !self.turns())
             && constants.inverse_mass > 0.0
             && constants.linear_damping == 0.0
             && constants.angular_damping == 0.0
@@ -112,6 +101,9 @@ impl Flight<'_> {
     fn book_plain(&self, journal: &mut Journal, row: usize) {
         let (before, after, constants, time) = (self.before, self.after, self.constants, self.time);
         journal.tallies[row].falls(mean_center(before, constants, self.influence, time), time);
+        if self.path == Path::Free {
+            return;
+        }
         let passage = &mut journal.passages[row];
         passage.way += after.position - before.position;
         let momentum = 0.5 * (before.angular_momentum + after.angular_momentum);
@@ -190,8 +182,10 @@ impl Flight<'_> {
         let (posts, tally) = (&mut journal.posts, &mut journal.tallies[row]);
         let kick = 0.5 * time * self.influence.torque;
         let momentum = before.angular_momentum + kick;
-        let [start, first] = constants.free_spins(before.rotation, [before.angular_momentum, momentum]);
-        let [last, end] = constants.free_spins(after.rotation, [momentum, after.angular_momentum]);
+        let departure = journal.axes[row].at(constants, before.rotation);
+        let arrival = journal.axes[row].at(constants, after.rotation);
+        let (first, last) =
+            (constants.spin_about(&departure, momentum), constants.spin_about(&arrival, momentum));
         let turned = 0.5 * momentum.dot(last - first);
         if constants.is_isotropic() {
             // As fast as before, to the bit.
@@ -217,6 +211,8 @@ impl Flight<'_> {
         if self.path != Path::Steady && !by_user {
             return;
         }
+        let start = constants.spin_about(&departure, before.angular_momentum);
+        let end = constants.spin_about(&arrival, after.angular_momentum);
         let turn = (start + first + last * left + end) * (0.25 * time);
         journal.passages[row].turn += turn;
         if by_user {

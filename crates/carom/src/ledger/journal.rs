@@ -1,9 +1,12 @@
 //! What is noted while a step goes on.
 
+use super::axes::Axes;
 use super::contacts::{Causes, Exerted, Push};
+use super::flights::weight;
 use super::{Posts, Residual, Stock};
 use crate::bodies::Bodies;
 use crate::math::{DQuat, DVec3};
+use crate::world::Momentum;
 
 /// The journal of a step.
 #[derive(Clone, Debug, Default)]
@@ -17,11 +20,15 @@ pub(crate) struct Journal {
     pub passages: Vec<Passage>,
     /// Orientations when they set out of those of which something is infinite.
     pub rotations: Vec<DQuat>,
+    /// Row by row, as long as bodies are as the last step left them.
+    pub axes: Vec<Axes>,
     /// Sums of what the bodies had at the end of the last step, with and without directions.
     sum: Stock,
     gross: [f64; 3],
     /// Whether bodies still have what they had then: nobody has been at them.
     is_known: bool,
+    /// Row of the body that artefacts gave most energy, or took most from, in the step that is over.
+    pub most_artificial: usize,
     /// What contacts exert in the present substep.
     pub exerted: Option<Exerted>,
     /// Row by row, by which causes: nothing, where no substep is under way.
@@ -38,7 +45,7 @@ pub(crate) struct Tally {
     pub explained: Residual,
     /// Energy that each of the [`ARTEFACTS`] gave, J.
     pub artefacts: [f64; ARTEFACTS.len()],
-    /// How long gravity has acted, s, and the integral of where it did, m·s: booked at the end of the step.
+    /// How long gravity has acted, s, and the integral of where it did, m·s.
     pub fall_time: f64,
     pub fall_place: DVec3,
 }
@@ -63,6 +70,18 @@ impl Tally {
     pub fn falls(&mut self, center: DVec3, time: f64) {
         self.fall_time += time;
         self.fall_place += center * time;
+    }
+
+    /// Linear and angular momentum that a pull (N) has given to the body.
+    #[inline]
+    fn fall(&self, pull: DVec3) -> Momentum {
+        Momentum { linear: pull * self.fall_time, angular: self.fall_place.cross(pull) }
+    }
+
+    /// The most energy that any of the [`ARTEFACTS`] gave or took, J.
+    #[inline]
+    pub fn artefact(&self) -> f64 {
+        self.artefacts.iter().fold(0.0, |most, energy| most.max(energy.abs()))
     }
 
     /// Energy that it got from one of the [`ARTEFACTS`].
@@ -114,13 +133,10 @@ impl Journal {
             std::mem::swap(&mut self.start, &mut self.end);
         } else {
             self.gravity = gravity;
-            self.start.clear();
-            self.start.extend((0..rows).map(|row| Stock::of_row(bodies, row, gravity)));
-            (self.sum, self.gross) = (Stock::default(), [0.0; 3]);
-            for (stock, state) in self.start.iter().zip(&bodies.states) {
-                self.sum += *stock;
-                add_to(&mut self.gross, stock.sizes(state.position));
-            }
+            self.axes.clear();
+            self.axes.resize(rows, Axes::UNKNOWN);
+            self.take_stock(bodies);
+            std::mem::swap(&mut self.start, &mut self.end);
         }
         self.is_known = false;
         self.tallies.clear();
@@ -133,37 +149,59 @@ impl Journal {
 
     /// Ends a step that took so long (s).
     pub fn close(&mut self, bodies: &Bodies, step: f64) -> Closing {
-        let rows = bodies.states.iter().zip(&bodies.constants);
-        self.end.clear();
-        self.end.extend(rows.clone().map(|(state, constants)| Stock::of(state, constants, self.gravity)));
-        let (mut sum, mut gross, mut pulls) = (Stock::default(), [0.0; 3], [0.0; 3]);
-        let fall = self.gravity.length() * step;
-        for (stock, (state, constants)) in self.end.iter().zip(rows) {
-            sum += *stock;
-            let distance = state.position.length();
-            add_to(&mut gross, stock.sizes_at(distance));
-            if constants.inverse_mass > 0.0 {
-                let pull = constants.mass() * constants.gravity_factor.abs() * fall;
-                add_to(&mut pulls, [pull, pull * distance, 0.0]);
-            }
-        }
-        let mut closing = Closing {
-            end: sum,
-            posts: std::mem::take(&mut self.posts),
-            gross: std::mem::replace(&mut self.gross, gross),
-            lost: self.lost,
-        };
-        add_to(&mut closing.gross, gross);
+        let before = self.gross;
+        let pulls = self.take_stock(bodies).map(|pull| pull * step);
+        self.book_falls(bodies);
+        let mut closing =
+            Closing { end: self.sum, posts: std::mem::take(&mut self.posts), gross: before, lost: self.lost };
+        add_to(&mut closing.gross, self.gross);
         add_to(&mut closing.gross, pulls);
-        self.sum = sum;
         self.is_known = true;
         closing
     }
 
+    /// Looks at what all bodies have now; returns how gravity pulls at them without directions: N, N·m, and nothing.
+    fn take_stock(&mut self, bodies: &Bodies) -> [f64; 3] {
+        let (gravity, pull) = (self.gravity, self.gravity.length());
+        let (mut sum, mut gross, mut pulls) = (Stock::default(), [0.0; 3], [0.0; 3]);
+        self.end.clear();
+        let rows = bodies.states.iter().zip(&bodies.constants).zip(&mut self.axes);
+        self.end.extend(rows.map(|((state, constants), axes)| {
+            let stock = Stock::of(state, constants, (gravity, axes.spin(constants, state)));
+            sum += stock;
+            let distance = state.position.length();
+            add_to(&mut gross, stock.sizes(distance));
+            if constants.inverse_mass > 0.0 {
+                let pull = constants.mass() * constants.gravity_factor.abs() * pull;
+                add_to(&mut pulls, [pull, pull * distance, 0.0]);
+            }
+            stock
+        }));
+        (self.sum, self.gross) = (sum, gross);
+        pulls
+    }
+
+    /// Books what gravity has given to bodies in the step, and sees whom artefacts gave most.
+    fn book_falls(&mut self, bodies: &Bodies) {
+        let mut most = 0.0;
+        self.most_artificial = 0;
+        for (row, (constants, tally)) in bodies.constants.iter().zip(&self.tallies).enumerate() {
+            let fall = tally.fall(weight(constants, self.gravity));
+            self.posts.gravity.add(fall.linear, fall.angular);
+            if tally.artefact() > most {
+                (self.most_artificial, most) = (row, tally.artefact());
+            }
+        }
+    }
+
     /// Row by row, what no cause explains of the step that is over.
-    pub fn residuals(&self) -> impl Iterator<Item = Residual> {
-        let rows = self.start.iter().zip(&self.end).zip(&self.tallies);
-        rows.map(|((start, end), tally)| end.since(start) - tally.explained)
+    pub fn residuals(&self, bodies: &Bodies) -> impl Iterator<Item = Residual> {
+        let rows = self.start.iter().zip(&self.end).zip(&self.tallies).zip(&bodies.constants);
+        rows.map(|(((start, end), tally), constants)| {
+            let fall = tally.fall(weight(constants, self.gravity));
+            let fallen = Residual { linear: fall.linear, angular: fall.angular, energy: 0.0 };
+            end.since(start) - tally.explained - fallen
+        })
     }
 
     /// Somebody changes bodies between steps.
@@ -179,6 +217,7 @@ impl Journal {
             self.start.swap_remove(row);
             self.tallies.swap_remove(row);
             self.passages.swap_remove(row);
+            self.axes.swap_remove(row);
         }
     }
 

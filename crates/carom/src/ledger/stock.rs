@@ -21,17 +21,18 @@ pub struct Stock {
 impl Stock {
     /// What the body of a row has.
     pub(crate) fn of_row(bodies: &Bodies, row: usize, gravity: DVec3) -> Self {
-        Self::of(&bodies.states[row], &bodies.constants[row], gravity)
+        let (state, constants) = (&bodies.states[row], &bodies.constants[row]);
+        let spin = constants.free_spin(state.rotation, state.angular_momentum);
+        Self::of(state, constants, (gravity, spin))
     }
 
-    /// What a body in this state has.
+    /// What a body has in this state, in which its angular momentum turns it with `spin` (rad/s).
     #[inline]
-    pub(super) fn of(state: &RigidState, constants: &Constants, gravity: DVec3) -> Self {
+    pub(super) fn of(state: &RigidState, constants: &Constants, (gravity, spin): (DVec3, DVec3)) -> Self {
         let mut stock = Stock::default();
         if !constants.is_movable() {
             return stock;
         }
-        let spin = constants.free_spin(state.rotation, state.angular_momentum);
         stock.energy.kinetic = 0.5 * spin.dot(state.angular_momentum);
         stock.momentum.angular = state.angular_momentum;
         if constants.inverse_mass > 0.0 {
@@ -68,14 +69,9 @@ impl Stock {
         }
     }
 
-    /// Its parts without their signs and directions, for a body at `position`: what rounding is a share of.
-    pub(super) fn sizes(&self, position: DVec3) -> [f64; 3] {
-        self.sizes_at(position.length())
-    }
-
-    /// The same at this distance (m) from the origin.
+    /// Its parts without their signs and directions, for a body at this distance (m) from the origin: what rounding is a share of.
     #[inline]
-    pub(super) fn sizes_at(&self, distance: f64) -> [f64; 3] {
+    pub(super) fn sizes(&self, distance: f64) -> [f64; 3] {
         let linear = self.momentum.linear.length();
         let angular = self.momentum.angular.length() + distance * linear;
         [linear, angular, self.energy.kinetic + self.energy.potential.abs() + self.elastic]

@@ -1,7 +1,7 @@
 //! Which step and which body fitted worst.
 
 use super::Books;
-use super::journal::{ARTEFACTS, Journal, Tally};
+use super::journal::{ARTEFACTS, Journal};
 use crate::bodies::{Bodies, BodyId};
 use std::fmt;
 
@@ -39,7 +39,7 @@ impl Worst {
             return present;
         }
         // Whose it is, is asked only now: it takes a look at every body.
-        let row = largest(journal.residuals().map(|residual| residual.sizes()[kind]));
+        let row = largest(journal.residuals(bodies).map(|residual| residual.sizes()[kind]));
         Some(Self {
             post: KINDS[kind],
             step,
@@ -58,8 +58,8 @@ impl Worst {
         (step, time): (u64, f64),
         present: Option<Worst>,
     ) -> Option<Self> {
-        let of_body = |tally: &Tally| tally.artefacts.iter().fold(0.0_f64, |most, it| most.max(it.abs()));
-        let (row, amount) = largest(journal.tallies.iter().map(of_body))?;
+        let row = journal.most_artificial;
+        let amount = journal.tallies.get(row)?.artefact();
         if !outweighs(amount, &present) {
             return present;
         }
