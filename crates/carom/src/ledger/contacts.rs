@@ -77,7 +77,9 @@ pub(crate) fn settle(bodies: &mut Bodies) {
         for row in 0..exerted.impulses.len() {
             journal.book_row(bodies, row, &exerted);
             // Whoever is held in the next substep will be told so.
-            journal.passages[row] = Passage::default();
+            if std::mem::take(&mut journal.paths[row]) != Path::Free {
+                journal.passages[row] = Passage::default();
+            }
         }
         journal.rebounds.clear();
     }
@@ -117,7 +119,7 @@ impl Journal {
         let push = Push { impulse: exerted.impulses[row], turn: exerted.turns[row] };
         let (center, rate) = (exerted.centers[row], 1.0 / exerted.time);
         let (constants, passage) = (&bodies.constants[row], self.passages[row]);
-        let is_led = passage.path != Path::Free;
+        let is_led = self.paths[row] != Path::Free;
         if !is_led && (row == WORLD_ROW || constants.is_movable()) {
             // The ground, and what sleeps: nothing moves along there, so that there is no work.
             self.posts.fixed.add(-push.impulse, -push.moment(center));
@@ -153,7 +155,7 @@ impl Journal {
     ) -> Passage {
         let Push { impulse, turn } = push;
         let (state, constants, passage) = (&bodies.states[row], &bodies.constants[row], self.passages[row]);
-        let is_led = passage.path != Path::Free;
+        let is_led = self.paths[row] != Path::Free;
         let rotation = if is_led { self.rotations[row] } else { state.rotation };
         let mut driven = passage;
         driven.turn += constants.driven_velocity(rotation) * time;

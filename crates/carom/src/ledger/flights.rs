@@ -35,8 +35,12 @@ pub(crate) fn flown(bodies: &mut Bodies, row: usize, before: &RigidState, time: 
     if !constants.is_movable() {
         return;
     }
+    let path = journal.paths[row];
+    if path == Path::Free && only_falls(before, constants, influence, journal.gravity) {
+        journal.falls[row].add(mean_center(before, constants, influence, time), time);
+        return;
+    }
     let (push, torque) = bodies.forces[row];
-    let path = journal.passages[row].path;
     let flight = Flight {
         before,
         after: &bodies.states[row],
@@ -66,28 +70,39 @@ pub(crate) fn flown(bodies: &mut Bodies, row: usize, before: &RigidState, time: 
 pub(crate) fn minds_drifting(bodies: &Bodies, row: usize) -> bool {
     let Some(journal) = bodies.journal.as_deref() else { return false };
     journal.gravity != DVec3::ZERO
-        || journal.passages[row].path != Path::Free
+        || journal.paths[row] != Path::Free
         || bodies.forces[row] != (DVec3::ZERO, DVec3::ZERO)
 }
 
-/// Gravity's force on a body, N; nothing on what has infinite mass.
+/// Whether gravity is all that acts on a body, and turning does not change its energy.
 #[inline]
-pub(super) fn weight(constants: &Constants, gravity: DVec3) -> DVec3 {
-    if constants.inverse_mass > 0.0 {
-        constants.mass() * constants.gravity_factor * gravity
-    } else {
-        DVec3::ZERO
-    }
+fn only_falls(state: &RigidState, constants: &Constants, influence: &Influence, gravity: DVec3) -> bool {
+    constants.inverse_mass > 0.0
+        && constants.linear_damping == 0.0
+        && constants.angular_damping == 0.0
+        && influence.acceleration == gravity * constants.gravity_factor
+        && influence.torque == DVec3::ZERO
+        && (constants.is_isotropic() || state.angular_momentum == DVec3::ZERO)
+}
+
+/// The mass on which gravity pulls, kg; nothing where it is infinite.
+#[inline]
+pub(super) fn heavy_mass(constants: &Constants) -> f64 {
+    if constants.inverse_mass > 0.0 { constants.mass() * constants.gravity_factor } else { 0.0 }
+}
+
+/// Gravity's force on a body, N.
+fn weight(constants: &Constants, gravity: DVec3) -> DVec3 {
+    heavy_mass(constants) * gravity
 }
 
 impl Flight<'_> {
-    /// Whether contacts and gravity alone act on it, evenly, and its angular velocity is that of its angular momentum: so most of
-    /// what rests, and of what falls.
+    /// Whether contacts and gravity alone act on it, evenly, and it turns about all axes alike: so much of what rests.
     #[inline]
     fn is_plain(&self) -> bool {
         let constants = self.constants;
-        self.acts
-            && (constants.is_isotropic() || !self.turns())
+        self.path == Path::Steady
+            && constants.is_isotropic()
             && constants.inverse_mass > 0.0
             && constants.linear_damping == 0.0
             && constants.angular_damping == 0.0
@@ -100,10 +115,7 @@ impl Flight<'_> {
     #[inline]
     fn book_plain(&self, journal: &mut Journal, row: usize) {
         let (before, after, constants, time) = (self.before, self.after, self.constants, self.time);
-        journal.tallies[row].falls(mean_center(before, constants, self.influence, time), time);
-        if self.path == Path::Free {
-            return;
-        }
+        journal.falls[row].add(mean_center(before, constants, self.influence, time), time);
         let passage = &mut journal.passages[row];
         passage.way += after.position - before.position;
         let momentum = 0.5 * (before.angular_momentum + after.angular_momentum);
@@ -128,7 +140,7 @@ impl Flight<'_> {
         }
         if self.acts {
             let mean = mean_center(self.before, self.constants, self.influence, self.time);
-            tally.falls(mean, self.time);
+            journal.falls[row].add(mean, self.time);
             if self.push != DVec3::ZERO {
                 let (impulse, work) = (self.push * self.time, self.push.dot(way));
                 posts.external.add(impulse, mean.cross(impulse));
@@ -242,13 +254,14 @@ pub(crate) fn set_out(bodies: &mut Bodies, row: usize, before: &RigidState, (tim
         journal.rotations[row] = before.rotation;
     }
     if steady {
-        journal.passages[row] = Passage { path: Path::Steady, ..Passage::default() };
+        journal.paths[row] = Path::Steady;
         return;
     }
     let way = (before.velocity + after.velocity) * (0.5 * time);
     let momentum = 0.5 * (before.angular_momentum + after.angular_momentum);
     let turn = constants.free_spin(before.rotation, momentum) * time;
-    journal.passages[row] = Passage { path: Path::Kicked, way, turn };
+    journal.paths[row] = Path::Kicked;
+    journal.passages[row] = Passage { way, turn };
 
     let (posts, tally) = (&mut journal.posts, &mut journal.tallies[row]);
     let (mut push, torque) = bodies.forces[row];
@@ -256,7 +269,7 @@ pub(crate) fn set_out(bodies: &mut Bodies, row: usize, before: &RigidState, (tim
         push = DVec3::ZERO;
     }
     let pull = weight(constants, journal.gravity);
-    tally.falls(before.position, time);
+    journal.falls[row].add(before.position, time);
     posts.integration += pull.dot(way);
     tally.get_artefact(INTEGRATION, pull.dot(way));
     if push != DVec3::ZERO || torque != DVec3::ZERO {

@@ -2,11 +2,12 @@
 
 use super::axes::Axes;
 use super::contacts::{Causes, Exerted, Push};
-use super::flights::weight;
+use super::flights::heavy_mass;
 use super::{Posts, Residual, Stock};
 use crate::bodies::Bodies;
 use crate::math::{DQuat, DVec3};
 use crate::world::Momentum;
+use std::ops::AddAssign;
 
 /// The journal of a step.
 #[derive(Clone, Debug, Default)]
@@ -17,6 +18,8 @@ pub(crate) struct Journal {
     start: Vec<Stock>,
     end: Vec<Stock>,
     pub tallies: Vec<Tally>,
+    pub falls: Vec<Fall>,
+    pub paths: Vec<Path>,
     pub passages: Vec<Passage>,
     /// Orientations when they set out of those of which something is infinite.
     pub rotations: Vec<DQuat>,
@@ -27,8 +30,6 @@ pub(crate) struct Journal {
     gross: [f64; 3],
     /// Whether bodies still have what they had then: nobody has been at them.
     is_known: bool,
-    /// Row of the body that artefacts gave most energy, or took most from, in the step that is over.
-    pub most_artificial: usize,
     /// What contacts exert in the present substep.
     pub exerted: Option<Exerted>,
     /// Row by row, by which causes: nothing, where no substep is under way.
@@ -45,9 +46,39 @@ pub(crate) struct Tally {
     pub explained: Residual,
     /// Energy that each of the [`ARTEFACTS`] gave, J.
     pub artefacts: [f64; ARTEFACTS.len()],
-    /// How long gravity has acted, s, and the integral of where it did, m·s.
-    pub fall_time: f64,
-    pub fall_place: DVec3,
+}
+
+/// How long gravity has acted on a body, s, and the integral of where it did, m·s.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Fall {
+    time: f64,
+    place: DVec3,
+}
+
+impl Fall {
+    /// Gravity acts for so long (s) at the mean place `center`.
+    #[inline]
+    pub fn add(&mut self, center: DVec3, time: f64) {
+        self.time += time;
+        self.place += center * time;
+    }
+
+    /// Times the mass (kg) on which gravity pulls.
+    fn of_mass(&self, mass: f64) -> Self {
+        Self { time: mass * self.time, place: mass * self.place }
+    }
+
+    /// Linear and angular momentum that gravity (m/s²) gives to a body of 1 kg.
+    fn momentum(&self, gravity: DVec3) -> Momentum {
+        Momentum { linear: gravity * self.time, angular: self.place.cross(gravity) }
+    }
+}
+
+impl AddAssign for Fall {
+    fn add_assign(&mut self, other: Self) {
+        self.time += other.time;
+        self.place += other.place;
+    }
 }
 
 /// Posts that are not modelled.
@@ -66,18 +97,6 @@ impl Tally {
         self.explained.energy += energy;
     }
 
-    /// Gravity acts for so long (s) at the mean place `center`.
-    pub fn falls(&mut self, center: DVec3, time: f64) {
-        self.fall_time += time;
-        self.fall_place += center * time;
-    }
-
-    /// Linear and angular momentum that a pull (N) has given to the body.
-    #[inline]
-    fn fall(&self, pull: DVec3) -> Momentum {
-        Momentum { linear: pull * self.fall_time, angular: self.fall_place.cross(pull) }
-    }
-
     /// The most energy that any of the [`ARTEFACTS`] gave or took, J.
     #[inline]
     pub fn artefact(&self) -> f64 {
@@ -91,10 +110,9 @@ impl Tally {
     }
 }
 
-/// What a body does in the present substep.
+/// What a body that contacts hold does in the present substep; nothing, where they do not.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Passage {
-    pub path: Path,
     /// Way (m) and turn (rad) along which a force of contacts and its torque work, if they act evenly.
     pub way: DVec3,
     pub turn: DVec3,
@@ -141,6 +159,9 @@ impl Journal {
         self.is_known = false;
         self.tallies.clear();
         self.tallies.resize(rows, Tally::default());
+        self.falls.clear();
+        self.falls.resize(rows, Fall::default());
+        self.paths.resize(rows, Path::Free);
         self.passages.resize(rows, Passage::default());
         self.rotations.resize(rows, DQuat::IDENTITY);
         self.causes.resize(rows, Causes::default());
@@ -171,36 +192,31 @@ impl Journal {
             sum += stock;
             let distance = state.position.length();
             add_to(&mut gross, stock.sizes(distance));
-            if constants.inverse_mass > 0.0 {
-                let pull = constants.mass() * constants.gravity_factor.abs() * pull;
-                add_to(&mut pulls, [pull, pull * distance, 0.0]);
-            }
+            let pull = heavy_mass(constants).abs() * pull;
+            add_to(&mut pulls, [pull, pull * distance, 0.0]);
             stock
         }));
         (self.sum, self.gross) = (sum, gross);
         pulls
     }
 
-    /// Books what gravity has given to bodies in the step, and sees whom artefacts gave most.
+    /// Books what gravity has given to bodies in the step.
     fn book_falls(&mut self, bodies: &Bodies) {
-        let mut most = 0.0;
-        self.most_artificial = 0;
-        for (row, (constants, tally)) in bodies.constants.iter().zip(&self.tallies).enumerate() {
-            let fall = tally.fall(weight(constants, self.gravity));
-            self.posts.gravity.add(fall.linear, fall.angular);
-            if tally.artefact() > most {
-                (self.most_artificial, most) = (row, tally.artefact());
-            }
+        let mut all = Fall::default();
+        for (constants, fall) in bodies.constants.iter().zip(&self.falls) {
+            all += fall.of_mass(heavy_mass(constants));
         }
+        let Momentum { linear, angular } = all.momentum(self.gravity);
+        self.posts.gravity.add(linear, angular);
     }
 
     /// Row by row, what no cause explains of the step that is over.
     pub fn residuals(&self, bodies: &Bodies) -> impl Iterator<Item = Residual> {
-        let rows = self.start.iter().zip(&self.end).zip(&self.tallies).zip(&bodies.constants);
-        rows.map(|(((start, end), tally), constants)| {
-            let fall = tally.fall(weight(constants, self.gravity));
-            let fallen = Residual { linear: fall.linear, angular: fall.angular, energy: 0.0 };
-            end.since(start) - tally.explained - fallen
+        let rows = self.start.iter().zip(&self.end).zip(&self.tallies);
+        let falls = bodies.constants.iter().zip(&self.falls);
+        rows.zip(falls).map(|(((start, end), tally), (constants, fall))| {
+            let Momentum { linear, angular } = fall.of_mass(heavy_mass(constants)).momentum(self.gravity);
+            end.since(start) - tally.explained - Residual { linear, angular, energy: 0.0 }
         })
     }
 
@@ -216,6 +232,8 @@ impl Journal {
         if row < self.start.len() {
             self.start.swap_remove(row);
             self.tallies.swap_remove(row);
+            self.falls.swap_remove(row);
+            self.paths.swap_remove(row);
             self.passages.swap_remove(row);
             self.axes.swap_remove(row);
         }

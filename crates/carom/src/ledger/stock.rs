@@ -1,6 +1,7 @@
 //! What bodies have.
 
 use super::Residual;
+use super::flights::heavy_mass;
 use crate::bodies::Bodies;
 use crate::flight::{Constants, RigidState};
 use crate::math::DVec3;
@@ -40,8 +41,7 @@ impl Stock {
             stock.momentum.linear = linear;
             stock.momentum.angular += state.position.cross(linear);
             stock.energy.kinetic += 0.5 * linear.dot(state.velocity);
-            stock.energy.potential =
-                -constants.mass() * constants.gravity_factor * gravity.dot(state.position);
+            stock.energy.potential = -heavy_mass(constants) * gravity.dot(state.position);
         }
         stock
     }

@@ -1,7 +1,7 @@
 //! Which step and which body fitted worst.
 
 use super::Books;
-use super::journal::{ARTEFACTS, Journal};
+use super::journal::{ARTEFACTS, Journal, Tally};
 use crate::bodies::{Bodies, BodyId};
 use std::fmt;
 
@@ -58,8 +58,7 @@ impl Worst {
         (step, time): (u64, f64),
         present: Option<Worst>,
     ) -> Option<Self> {
-        let row = journal.most_artificial;
-        let amount = journal.tallies.get(row)?.artefact();
+        let (row, amount) = largest(journal.tallies.iter().map(Tally::artefact))?;
         if !outweighs(amount, &present) {
             return present;
         }
