@@ -138,6 +138,9 @@ pub(crate) struct Closing {
     pub lost: bool,
 }
 
+/// So many bodies' falls are added up at a time.
+const BATCH: usize = 64;
+
 fn add_to(sums: &mut [f64; 3], values: [f64; 3]) {
     sums.iter_mut().zip(values).for_each(|(sum, value)| *sum += value);
 }
@@ -200,11 +203,18 @@ impl Journal {
         pulls
     }
 
-    /// Books what gravity has given to bodies in the step.
+    /// Books what gravity has given to bodies in the step. Sums of sums are rounded less than one long one.
     fn book_falls(&mut self, bodies: &Bodies) {
+        if self.gravity == DVec3::ZERO {
+            return;
+        }
         let mut all = Fall::default();
-        for (constants, fall) in bodies.constants.iter().zip(&self.falls) {
-            all += fall.of_mass(heavy_mass(constants));
+        for (constants, falls) in bodies.constants.chunks(BATCH).zip(self.falls.chunks(BATCH)) {
+            let mut sum = Fall::default();
+            for (constants, fall) in constants.iter().zip(falls) {
+                sum += fall.of_mass(heavy_mass(constants));
+            }
+            all += sum;
         }
         let Momentum { linear, angular } = all.momentum(self.gravity);
         self.posts.gravity.add(linear, angular);
