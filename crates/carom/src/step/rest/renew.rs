@@ -6,6 +6,7 @@
 
 use super::crowds::reach_in_crowd;
 use super::remember::remembered;
+use super::work::fill;
 use super::{Owner, Rest, Span, horizon};
 use crate::bodies::{Bodies, ColliderRow};
 use crate::collide::Manifold;
@@ -148,7 +149,8 @@ impl Rest {
         at: (RestLaw, Span),
     ) {
         let _phase = profile::phase(Phase::Renew);
-        let mut has_moved = vec![false; bodies.states.len()];
+        let mut has_moved = std::mem::take(&mut self.has_moved);
+        fill(&mut has_moved, bodies.states.len(), false);
         for &row in held {
             let [way, turn] = self.rows.read_drift(bodies, row);
             let [most, most_turn] = self.limits(bodies, row, at.0);
@@ -162,6 +164,7 @@ impl Rest {
             pair.rests && (pair.is_outdated || pair.rows.into_iter().any(|row| has_moved[row]))
         };
         let stale: Vec<usize> = self.resting.iter().copied().filter(stale).collect();
+        self.has_moved = has_moved;
         self.renew_all(bodies, pairs, stale, at);
         let noted = self.graph.measure(&self.rows.drifts);
         let mut noted: Vec<usize> =
