@@ -117,6 +117,7 @@ impl Rest {
         let movable = pair.rows.map(|row| bodies.constants[row].is_movable());
         (pair.is_pressed, pair.is_outdated) = (view.is_pressed, false);
         let owner = owner(bodies, pair, index, view.contacts.len());
+        pair.supports.reserve_exact(view.contacts.len());
         for (number, (manifold, lane)) in view.contacts.iter().enumerate() {
             let contact = match old.get(number) {
                 Some(support) => {
