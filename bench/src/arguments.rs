@@ -76,7 +76,7 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE")]
     pub svg: Option<PathBuf>,
 
-    /// What README.md shows: a comparison on all scenes and cost against size, as text, JSON, tables and charts in a folder
+    /// What README.md shows: a comparison on six scenes and cost against size, as text, JSON, tables and charts in a folder
     #[arg(
         long,
         value_name = "FOLDER",

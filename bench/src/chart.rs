@@ -106,7 +106,7 @@ fn footer(drawing: &mut Drawing, results: &Results, top: f64) -> f64 {
         };
         lines.push(stopped.to_string());
     }
-    let mut y = top + 4.0;
+    let mut y = top + LINE;
     for line in lines {
         drawing.small(Place(MARGIN, y), Anchor::Start, &line);
         y += LINE;

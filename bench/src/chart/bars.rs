@@ -59,7 +59,9 @@ impl Panel<'_> {
             let share = comparison.share(engine);
             let length = share.and_then(|share| share.ratio).map_or(0.0, |ratio| self.length(ratio));
             drawing.bar(Place(foot, middle - 0.5 * THICK), [length, THICK], color(index));
-            drawing.small(Place(foot + length + 6.0, middle + 4.0), Anchor::Start, &figures(share));
+            // Beyond the line, which would strike through the figures of short bars.
+            let end = foot + length.max(self.length(1.0));
+            drawing.small(Place(end + 6.0, middle + 4.0), Anchor::Start, &figures(share));
         }
         let (one, bottom) =
             (foot + self.length(1.0), cell.top + HEAD + PITCH * self.engines.len() as f64 + 2.0);
@@ -75,7 +77,7 @@ impl Panel<'_> {
 /// What stands beside a bar.
 fn figures(share: Option<&Share>) -> String {
     match share {
-        Some(Share { ms, ratio: Some(ratio), .. }) => format!("{} ms, {}×", short(*ms), short(*ratio)),
+        Some(Share { ms, ratio: Some(ratio), .. }) => format!("{} ms, {ratio:.2}×", short(*ms)),
         Some(Share { ms, ratio: None, .. }) => format!("{} ms*", short(*ms)),
         None => "no result".to_string(),
     }
