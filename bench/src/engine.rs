@@ -7,6 +7,8 @@ mod box3d;
 mod carom;
 #[cfg(feature = "jolt")]
 mod jolt;
+#[cfg(feature = "physx")]
+mod physx;
 #[cfg(feature = "rapier")]
 mod rapier;
 
@@ -80,6 +82,8 @@ pub const ENGINES: &[Entry] = &[
     box3d::ENTRY,
     #[cfg(feature = "jolt")]
     jolt::ENTRY,
+    #[cfg(feature = "physx")]
+    physx::ENTRY,
 ];
 
 /// The engine of that name.
