@@ -76,7 +76,18 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE")]
     pub svg: Option<PathBuf>,
 
-    /// Measure nothing: report, and draw, what an earlier run wrote with `--json`
+    /// What README.md shows: a comparison on six scenes and cost against size, as text, JSON, tables and charts in a folder
+    #[arg(
+        long,
+        value_name = "FOLDER",
+        conflicts_with_all = [
+            "scenes", "threads", "rounds", "steps", "count", "sizes", "base", "friction", "settle", "phases", "limit",
+            "json", "svg",
+        ]
+    )]
+    pub publish: Option<PathBuf>,
+
+    /// Measure nothing: report, and draw, what an earlier run wrote with `--json`, or the folder of an earlier `--publish`
     #[arg(long, value_name = "FILE", conflicts_with = "json")]
     pub from: Option<PathBuf>,
 
@@ -100,6 +111,17 @@ impl FromStr for Names {
 }
 
 impl Arguments {
+    /// What a command line without the program's name asks for.
+    pub fn of_line(line: &str) -> Result<Self, String> {
+        let words = ["bench"].into_iter().chain(line.split_whitespace());
+        Self::try_parse_from(words).map_err(|error| error.to_string())
+    }
+
+    /// The engines asked for as the command line has them; `None` if it does not say.
+    pub fn engine_names(&self) -> Option<String> {
+        self.engines.as_ref().map(|Names(names)| names.join(","))
+    }
+
     /// How large scenes are to be: one size, or from small to large those of `--sizes`.
     pub fn sizes(&self) -> Vec<Size> {
         if !self.grows() {

@@ -2,8 +2,8 @@
 //!
 //! | file | what it draws |
 //! |---|---|
-//! | `bars` | ms a step of every engine, a panel for each scene |
-//! | `lines` | cost against size, a panel for each scene |
+//! | `bars` | every engine beside the fastest peer, panels for each scene |
+//! | `lines` | cost against size, panels for each scene |
 //! | `axis` | from values to places, and where to write numbers |
 //! | `drawing` | lines, rectangles and text |
 
@@ -13,7 +13,7 @@ mod drawing;
 mod lines;
 
 use crate::rounds::Results;
-use drawing::{Anchor, Drawing, INK, PALE, Place};
+use drawing::{Anchor, Drawing, Place};
 
 /// Width of the picture, pixels.
 const WIDTH: f64 = 900.0;
@@ -34,7 +34,11 @@ struct Frame {
 /// The picture: lines where cost against size was measured, else bars.
 pub fn svg(results: &Results) -> String {
     let grows = !results.curves.is_empty();
-    let title = if grows { "Time of a step against the number of bodies" } else { "Time of a step" };
+    let (title, ratios) = if grows {
+        ("Time of a step against the number of bodies", "")
+    } else {
+        ("Time of a step, and its ratio to the fastest peer's", "; the bars are the ratios, the line is 1")
+    };
     let rounds = match results.rounds {
         1 => "the mean of one run".to_string(),
         rounds => format!("the least of the means of {rounds} runs"),
@@ -44,7 +48,7 @@ pub fn svg(results: &Results) -> String {
     drawing.text(
         Place(MARGIN, MARGIN + 34.0),
         Anchor::Start,
-        &format!("Milliseconds, {rounds}; less is better."),
+        &format!("Milliseconds, {rounds}{ratios}. Less is better."),
     );
     let top = MARGIN + 56.0;
     let bottom =
@@ -53,18 +57,7 @@ pub fn svg(results: &Results) -> String {
     drawing.finish(WIDTH, bottom + MARGIN)
 }
 
-/// All engines of the results, each once, in their order: an engine's place in it is its colour.
-fn engines(results: &Results) -> Vec<&str> {
-    let mut engines: Vec<&str> = Vec::new();
-    for entrant in results.cases.iter().flat_map(|case| &case.entrants) {
-        if !engines.contains(&entrant.engine.as_str()) {
-            engines.push(&entrant.engine);
-        }
-    }
-    engines
-}
-
-/// All scenes, likewise.
+/// All scenes, each once, in their order.
 fn scenes(results: &Results) -> Vec<&str> {
     let mut scenes: Vec<&str> = results.cases.iter().map(|case| case.scene.as_str()).collect();
     scenes.dedup();
@@ -97,10 +90,8 @@ impl Grid {
 fn footer(drawing: &mut Drawing, results: &Results, top: f64) -> f64 {
     let machine = &results.machine;
     let mut lines = Vec::new();
-    for engine in engines(results) {
-        let mut entrants = results.cases.iter().flat_map(|case| &case.entrants);
-        let version = entrants.find(|entrant| entrant.engine == engine).map(|entrant| &entrant.version);
-        lines.extend(version.map(|version| format!("{engine}: {version}")));
+    for entrant in results.engines() {
+        lines.push(format!("{}: {}", entrant.engine, entrant.version));
     }
     lines.push(format!(
         "{}, {} threads at once; compiled for {}",
@@ -109,30 +100,18 @@ fn footer(drawing: &mut Drawing, results: &Results, top: f64) -> f64 {
     let whole = |entrant: &crate::rounds::Entrant| entrant.summary.as_ref().is_none_or(|s| s.whole());
     if !results.cases.iter().flat_map(|case| &case.entrants).all(whole) {
         let stopped = if results.curves.is_empty() {
-            "* stopped at the limit of time: the mean of the steps that were done"
+            "* was stopped at the limit of time: the mean of the steps that were done, and no bar."
         } else {
             "What was stopped at the limit of time is not drawn."
         };
         lines.push(stopped.to_string());
     }
-    let mut y = top + 4.0;
+    let mut y = top + LINE;
     for line in lines {
         drawing.small(Place(MARGIN, y), Anchor::Start, &line);
         y += LINE;
     }
     y - LINE
-}
-
-/// The axis up a panel's left edge, with its lines across.
-fn vertical_axis(drawing: &mut Drawing, frame: Frame, axis: &axis::Axis) {
-    for tick in axis.ticks() {
-        let y = axis.at(tick.value);
-        drawing.line(Place(frame.left, y), Place(frame.right, y), PALE);
-        if tick.labelled {
-            drawing.small(Place(frame.left - 6.0, y + 4.0), Anchor::End, &axis::number(tick.value));
-        }
-    }
-    drawing.line(Place(frame.left, frame.bottom), Place(frame.right, frame.bottom), INK);
 }
 
 #[cfg(test)]
@@ -155,32 +134,51 @@ mod tests {
         assert!(!svg.contains("NaN") && !svg.contains("inf\""), "{svg}");
     }
 
+    /// What the bars' attribute says, one after the other.
+    fn lengths(svg: &str) -> Vec<f64> {
+        let width =
+            |line: &str| -> Option<f64> { line.split_once(" width=\"")?.1.split_once('"')?.0.parse().ok() };
+        svg.lines().filter(|line| line.contains("class=\"bar\"")).filter_map(width).collect()
+    }
+
     #[test]
-    fn bars_have_the_heights_of_their_times() {
+    fn bars_are_as_long_as_their_ratios_to_the_peer() {
         let cases = sample::cases().into_iter().filter(|case| case.entrants[0].job.count == Some(1000));
         let svg = svg(&sample::results(cases.collect(), false));
         well_formed(&svg);
-        let heights: Vec<f64> = svg
-            .lines()
-            .filter(|line| line.contains("class=\"bar\""))
-            .map(|line| line.split_once("height=\"").unwrap().1.split_once('"').unwrap().0.parse().unwrap())
-            .collect();
-        assert_eq!(heights.len(), 4, "{svg}");
-        for (height, ms) in heights.iter().zip([1.0, 3.162, 0.5, 1.581]) {
-            assert!((height / heights[0] - ms).abs() < 0.02, "{heights:?}");
+        let lengths = lengths(&svg);
+        assert_eq!(lengths.len(), 4, "{svg}");
+        for (length, ratio) in lengths.iter().zip([0.3162, 1.0, 0.3162, 1.0]) {
+            assert!((length / lengths[1] - ratio).abs() < 0.001, "{lengths:?}");
         }
         for text in [
             ">pile<",
-            ">1 thread<",
-            ">2 threads<",
+            ">1 thread, 1,000 bodies, 1 steps<",
+            ">2 threads, ",
             ">carom<",
             ">peer<",
-            ">3.16<",
-            "ms a step",
+            ">3.16 ms, 1.00×<",
             "&lt;1 &amp; 2&gt;",
+            "prefers-color-scheme: dark",
         ] {
             assert!(svg.contains(text), "{text}: {svg}");
         }
+    }
+
+    #[test]
+    fn a_missing_engine_keeps_its_place_and_its_colour() {
+        let mut cases: Vec<_> = sample::cases().into_iter().take(2).collect();
+        cases[1].scene = "gas".to_string();
+        cases[0].entrants.insert(1, sample::entrant("third", 100, 0.05));
+        cases[1].entrants.insert(1, sample::entrant("third", 1000, 0.5));
+        cases[1].entrants[1].summary = None;
+        let svg = svg(&sample::results(cases, false));
+        well_formed(&svg);
+        let colors = svg.lines().filter_map(|line| line.split_once("class=\"bar\"")?.1.split_once("fill="));
+        let colors: Vec<&str> = colors.map(|(_, color)| color).collect();
+        assert_eq!(colors[..3], colors[3..]);
+        assert_eq!(lengths(&svg)[4], 0.0);
+        assert_eq!(svg.matches(">no result<").count(), 1);
     }
 
     #[test]
@@ -189,8 +187,7 @@ mod tests {
         well_formed(&svg);
         let count = |text: &str| svg.matches(text).count();
         assert_eq!((count("class=\"curve\""), count("<circle ")), (4, 4 * 3));
-        for text in
-            ["carom, 1 thread: n^1.00", "peer, 2 threads: n^1.50", ">bodies<", ">10,000<", "ms a step"]
+        for text in [">carom: n^1.00; ", ">peer: n^1.50; ", ">bodies<", ">10,000<", ">2 threads, ms a step<"]
         {
             assert!(svg.contains(text), "{text}: {svg}");
         }
@@ -211,7 +208,7 @@ mod tests {
         cases.truncate(1);
         let svg = svg(&sample::results(cases, false));
         well_formed(&svg);
-        assert!(svg.contains(">0.100*<") && svg.contains("* stopped at the limit"), "{svg}");
+        assert!(svg.contains(">0.100 ms*<") && svg.contains("* was stopped at the limit"), "{svg}");
     }
 
     #[test]

@@ -7,6 +7,8 @@ mod box3d;
 mod carom;
 #[cfg(feature = "jolt")]
 mod jolt;
+#[cfg(feature = "physx")]
+mod physx;
 #[cfg(feature = "rapier")]
 mod rapier;
 
@@ -80,11 +82,18 @@ pub const ENGINES: &[Entry] = &[
     box3d::ENTRY,
     #[cfg(feature = "jolt")]
     jolt::ENTRY,
+    #[cfg(feature = "physx")]
+    physx::ENTRY,
 ];
 
 /// The engine of that name.
 pub fn find(name: &str) -> Option<&'static Entry> {
     ENGINES.iter().find(|entry| entry.name == name)
+}
+
+/// Whether an engine of that name is one to measure Carom by, and not Carom itself with other settings.
+pub fn is_peer(name: &str) -> bool {
+    name.split('+').next() != Some("carom")
 }
 
 /// A world of this engine with the scene in it.
@@ -104,6 +113,12 @@ mod tests {
 
     fn poses(world: &dyn Engine, scene: &Scene) -> Poses {
         Poses((0..scene.bodies.len()).map(|body| world.pose(body)).collect())
+    }
+
+    #[test]
+    fn carom_is_no_peer_of_its_own() {
+        let peers = ENGINES.iter().filter(|entry| is_peer(entry.name)).count();
+        assert_eq!(peers, ENGINES.len() - 2);
     }
 
     /// Whatever the engine, it begins where the scene says, to single precision.

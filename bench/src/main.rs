@@ -10,17 +10,23 @@
 //! | `quality` | figures from poses alone, the same code for every engine |
 //! | `rounds` | all measurements, interleaved |
 //! | `summary` | what the rounds of one engine come to |
+//! | `comparison` | every engine beside the fastest peer |
 //! | `curve` | cost against size, and its exponent |
 //! | `report`, `table` | what is printed |
+//! | `publication` | what README.md shows, measured in one run |
 //! | `chart` | what is drawn |
+//! | `file` | reading and writing |
 //! | `machine` | what it ran on; CPU time and memory of this process |
 
 mod arguments;
 mod chart;
+mod comparison;
 mod curve;
 mod engine;
+mod file;
 mod machine;
 mod phase;
+mod publication;
 mod quality;
 mod report;
 mod rounds;
@@ -33,7 +39,7 @@ mod worker;
 
 use arguments::Arguments;
 use clap::Parser;
-use rounds::Results;
+use publication::Publication;
 use std::io::Write;
 use std::path::Path;
 use std::process::ExitCode;
@@ -55,29 +61,37 @@ fn run() -> Result<ExitCode, String> {
         print(&worker::serve(job)?)?;
         return Ok(ExitCode::SUCCESS);
     }
+    if let Some(folder) = &arguments.publish {
+        return publish(&arguments, folder);
+    }
     let results = match &arguments.from {
-        Some(file) => read(file)?,
+        Some(file) => file::read_json(file)?,
         None => rounds::run(&arguments)?,
     };
     print(&report::text(&results))?;
     if let Some(file) = &arguments.json {
-        let json = serde_json::to_string_pretty(&results).map_err(|error| error.to_string())?;
-        write(file, &(json + "\n"))?;
+        file::write_json(file, &results)?;
     }
     if let Some(file) = &arguments.svg {
-        write(file, &chart::svg(&results))?;
+        file::write(file, &chart::svg(&results))?;
     }
-    Ok(if results.failures.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+    Ok(status(results.failures.is_empty()))
 }
 
-/// What an earlier run wrote.
-fn read(file: &Path) -> Result<Results, String> {
-    let text = std::fs::read_to_string(file).map_err(|error| format!("{}: {error}", file.display()))?;
-    serde_json::from_str(&text).map_err(|error| format!("{}: {error}", file.display()))
+/// Measures what README.md shows, or reads it from an earlier publication, and writes it.
+fn publish(arguments: &Arguments, folder: &Path) -> Result<ExitCode, String> {
+    let publication = match &arguments.from {
+        Some(earlier) => Publication::read(earlier)?,
+        None => Publication::measure(arguments)?,
+    };
+    print(&publication.text())?;
+    publication.write(folder)?;
+    Ok(status(publication.whole()))
 }
 
-fn write(file: &Path, text: &str) -> Result<(), String> {
-    std::fs::write(file, text).map_err(|error| format!("{}: {error}", file.display()))
+/// The exit status of a run, in which every measurement gave a result or not.
+fn status(whole: bool) -> ExitCode {
+    if whole { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
 
 /// Writes to standard output; a reader who has seen enough is no error.

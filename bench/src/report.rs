@@ -1,5 +1,6 @@
 //! What is printed.
 
+mod overview;
 mod phases;
 mod sizes;
 
@@ -8,6 +9,7 @@ use crate::rounds::{Case, Entrant, Results};
 use crate::summary::{Ratio, Summary};
 use crate::table::{Table, short};
 use crate::worker::Measurement;
+pub use overview::markdown;
 
 /// Everything, for people.
 pub fn text(results: &Results) -> String {
@@ -31,6 +33,9 @@ pub fn text(results: &Results) -> String {
         }
         text += &remarks(case);
     }
+    if !results.cases.iter().any(phases::measured) {
+        text += &overview::text(results);
+    }
     for failure in &results.failures {
         text += &format!("\nNo result: {failure}\n");
     }
@@ -44,12 +49,8 @@ fn heading(results: &Results) -> String {
         "{}, {} threads at once; compiled for {}; rounds: {}\n",
         machine.processor, machine.threads, machine.compiled_for, results.rounds
     );
-    let mut named = Vec::new();
-    for entrant in results.cases.iter().flat_map(|case| &case.entrants) {
-        if !named.contains(&&entrant.engine) {
-            named.push(&entrant.engine);
-            text += &format!("  {}: {}; {}\n", entrant.engine, entrant.version, entrant.settings);
-        }
+    for Entrant { engine, version, settings, .. } in results.engines() {
+        text += &format!("  {engine}: {version}; {settings}\n");
     }
     text
 }

@@ -2,6 +2,7 @@
 //! engine goes first.
 
 use crate::arguments::Arguments;
+use crate::comparison::Comparison;
 use crate::curve::Curve;
 use crate::engine::{self, DT};
 use crate::machine::Machine;
@@ -24,6 +25,8 @@ pub struct Results {
     pub settle: bool,
     /// One for each scene with each number of threads, at each size.
     pub cases: Vec<Case>,
+    /// All engines of each case beside the fastest peer.
+    pub comparisons: Vec<Comparison>,
     /// Cost against size, where that was asked for.
     pub curves: Vec<Curve>,
     /// What gave no result, and why.
@@ -68,6 +71,30 @@ pub struct Round {
     pub measurement: Measurement,
 }
 
+impl Results {
+    /// All engines, each once, in their order, with what its first case says of it.
+    pub fn engines(&self) -> Vec<&Entrant> {
+        let mut engines: Vec<&Entrant> = Vec::new();
+        for entrant in self.cases.iter().flat_map(|case| &case.entrants) {
+            if !engines.iter().any(|known| known.engine == entrant.engine) {
+                engines.push(entrant);
+            }
+        }
+        engines
+    }
+
+    /// Their names.
+    pub fn engine_names(&self) -> Vec<&str> {
+        self.engines().into_iter().map(|entrant| entrant.engine.as_str()).collect()
+    }
+
+    /// Drops the times of single steps, which nothing needs that has summaries.
+    pub fn forget_steps(&mut self) {
+        let entrants = self.cases.iter_mut().flat_map(|case| &mut case.entrants);
+        entrants.flat_map(|entrant| &mut entrant.rounds).for_each(|round| round.measurement.step_ms.clear());
+    }
+}
+
 /// Measures what was asked for.
 pub fn run(arguments: &Arguments) -> Result<Results, String> {
     let program = std::env::current_exe().map_err(|error| format!("where this program lies: {error}"))?;
@@ -96,8 +123,9 @@ pub fn run(arguments: &Arguments) -> Result<Results, String> {
     progress.finish_and_clear();
     cases.iter_mut().for_each(Case::sum_up);
     let curves = if arguments.grows() { Curve::all(&cases) } else { Vec::new() };
+    let comparisons = Comparison::all(&cases);
     let settle = arguments.settle.is_some();
-    Ok(Results { machine: Machine::this(), rounds, settle, cases, curves, failures })
+    Ok(Results { machine: Machine::this(), rounds, settle, cases, comparisons, curves, failures })
 }
 
 /// A measurement for people.

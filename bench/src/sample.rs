@@ -1,5 +1,6 @@
 //! Results as if they had been measured, for tests of what is made of them.
 
+use crate::comparison::Comparison;
 use crate::curve::Curve;
 use crate::machine::Machine;
 use crate::quality::{Energy, Motion, Overlap, Quality};
@@ -76,5 +77,7 @@ pub fn cases() -> Vec<Case> {
 /// What a run with these cases found; with their curves if it `grows`.
 pub fn results(cases: Vec<Case>, grows: bool) -> Results {
     let curves = if grows { Curve::all(&cases) } else { Vec::new() };
-    Results { machine: Machine::this(), rounds: 1, settle: false, cases, curves, failures: Vec::new() }
+    let comparisons = Comparison::all(&cases);
+    let (machine, failures) = (Machine::this(), Vec::new());
+    Results { machine, rounds: 1, settle: false, cases, comparisons, curves, failures }
 }

@@ -16,6 +16,19 @@ impl Table {
         self.rows.push(cells);
     }
 
+    /// The rows as Markdown has them.
+    pub fn markdown(&self) -> String {
+        let columns = self.rows.iter().map(Vec::len).max().unwrap_or(0);
+        let mut text = String::new();
+        for (i, row) in self.rows.iter().enumerate() {
+            text += &format!("| {} |\n", row.join(" | "));
+            if i == 0 {
+                text += &format!("|---|{}\n", "--:|".repeat(columns.saturating_sub(1)));
+            }
+        }
+        text
+    }
+
     /// The lines, each indented by two.
     pub fn text(&self) -> String {
         let columns = self.rows.iter().map(Vec::len).max().unwrap_or(0);
@@ -69,6 +82,13 @@ mod tests {
         table.row(vec!["carom".into(), "1.5".into(), "1".into()]);
         table.row(vec!["x".into(), "12.25".into()]);
         assert_eq!(table.text(), "            ms  ×\n  carom    1.5  1\n  x      12.25\n");
+    }
+
+    #[test]
+    fn markdown_has_a_line_below_its_headings() {
+        let mut table = Table::new(&["", "ms"]);
+        table.row(vec!["carom".into(), "1.5".into()]);
+        assert_eq!(table.markdown(), "|  | ms |\n|---|--:|\n| carom | 1.5 |\n");
     }
 
     #[test]

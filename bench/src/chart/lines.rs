@@ -1,50 +1,52 @@
-//! A panel for each scene, in it a line for each engine with each number of threads: time of a step over bodies, both
+//! A panel for each scene with each number of threads, in it a line for each engine: time of a step over bodies, both
 //! logarithmic, so that a power is a straight line and its exponent the slope.
 
 use super::axis::{Axis, number};
-use super::drawing::{Anchor, Drawing, GREY, PALE, Place, color};
-use super::{Frame, Grid, LINE, engines, scenes, vertical_axis};
+use super::drawing::{Anchor, Drawing, GREY, INK, PALE, Place, color};
+use super::{Frame, Grid, LINE};
 use crate::curve::{Curve, Point};
 use crate::report::threads;
 use crate::rounds::Results;
 
-/// Dashes of the numbers of threads, in their order.
-const DASHES: [&str; 4] = ["none", "7 4", "2 3", "9 3 2 3"];
-
 /// Draws below `top`; returns where it ends.
 pub fn draw(drawing: &mut Drawing, results: &Results, top: f64) -> f64 {
-    let (engines, scenes) = (engines(results), scenes(results));
-    let curves =
-        |scene: &str| -> Vec<&Curve> { results.curves.iter().filter(|curve| curve.scene == scene).collect() };
-    let keys = scenes.iter().map(|scene| curves(scene).len()).max().unwrap_or(0) + 1;
-    let height = 390.0 + keys as f64 * LINE;
-    let grid = Grid { top: top - 8.0, columns: scenes.len().clamp(1, 2), height };
-    for (index, scene) in scenes.iter().enumerate() {
-        let panel = Panel { cell: grid.cell(index), keys, engines: &engines };
-        drawing.heading(Place(panel.cell.left, panel.cell.top + 14.0), scene);
-        panel.draw(drawing, &curves(scene));
+    let engines = results.engine_names();
+    let panels: Vec<&[Curve]> =
+        results.curves.chunk_by(|a, b| (&a.scene, a.threads) == (&b.scene, b.threads)).collect();
+    let keys = panels.iter().map(|curves| curves.len()).max().unwrap_or(0) + 1;
+    let height = 360.0 + keys as f64 * LINE;
+    let grid = Grid { top: top - 8.0, columns: panels.len().clamp(1, 2), height };
+    for (index, curves) in panels.iter().enumerate() {
+        let cell = grid.cell(index);
+        let (scene, threads) = (&curves[0].scene, threads(curves[0].threads));
+        drawing.heading(Place(cell.left, cell.top + 14.0), scene, &format!("{threads}, ms a step"));
+        // Panels of the same scene have the same axes, so that eyes can compare them.
+        let of_scene = results.curves.iter().filter(|curve| curve.scene == *scene);
+        Panel { cell, keys, engines: &engines, of_scene: of_scene.collect() }.draw(drawing, curves);
     }
-    grid.bottom(scenes.len())
+    grid.bottom(panels.len())
 }
 
-/// Where a scene is drawn.
+/// Where curves are drawn.
 struct Panel<'a> {
     cell: Frame,
     /// For how many lines there is space under the axis.
     keys: usize,
     engines: &'a [&'a str],
+    /// What has to have a place on the axes.
+    of_scene: Vec<&'a Curve>,
 }
 
 impl Panel<'_> {
-    fn draw(&self, drawing: &mut Drawing, curves: &[&Curve]) {
+    fn draw(&self, drawing: &mut Drawing, curves: &[Curve]) {
         let cell = self.cell;
         let frame = Frame {
-            left: cell.left + 52.0,
-            top: cell.top + 46.0,
+            left: cell.left + 46.0,
+            top: cell.top + 34.0,
             right: cell.right - 20.0,
             bottom: cell.bottom - 62.0 - self.keys as f64 * LINE,
         };
-        let points = || curves.iter().flat_map(|curve| &curve.points);
+        let points = || self.of_scene.iter().flat_map(|curve| &curve.points);
         let bodies = points().map(|point| point.bodies as f64);
         let axes = (
             Axis::logarithmic(bodies, [frame.left, frame.right]),
@@ -54,36 +56,23 @@ impl Panel<'_> {
             drawing.small(Place(frame.left, frame.top), Anchor::Start, "no result");
             return;
         };
-        drawing.small(Place(cell.left, cell.top + 14.0 + LINE), Anchor::Start, "ms a step");
-        for tick in across.ticks() {
-            let x = across.at(tick.value);
-            drawing.line(Place(x, frame.top), Place(x, frame.bottom), PALE);
-            if tick.labelled {
-                drawing.small(Place(x, frame.bottom + LINE), Anchor::Middle, &number(tick.value));
-            }
-        }
-        vertical_axis(drawing, frame, &up);
-        let middle = 0.5 * (frame.left + frame.right);
-        drawing.small(Place(middle, frame.bottom + 2.1 * LINE), Anchor::Middle, "bodies");
-
+        rule(drawing, frame, &across, &up);
         let place = |point: &Point| Place(across.at(point.bodies as f64), up.at(point.ms));
         if let Some(ends) = proportional(curves, &up) {
             let [from, to] = ends.map(|point| place(&point));
             drawing.line(from, to, GREY);
         }
         for curve in curves {
-            let (color, dashes) = self.style(curve, curves);
-            drawing.curve(&curve.points.iter().map(place).collect::<Vec<_>>(), color, dashes);
+            drawing.curve(&curve.points.iter().map(place).collect::<Vec<_>>(), self.color(curve));
         }
         self.key(drawing, curves, Place(frame.left, frame.bottom + 3.4 * LINE));
     }
 
     /// Which line is whose, with its exponent.
-    fn key(&self, drawing: &mut Drawing, curves: &[&Curve], Place(x, mut y): Place) {
+    fn key(&self, drawing: &mut Drawing, curves: &[Curve], Place(x, mut y): Place) {
         for curve in curves {
-            let (color, dashes) = self.style(curve, curves);
-            drawing.sample(Place(x, y - 4.0), color, dashes);
-            let mut text = format!("{}, {}", curve.engine, threads(curve.threads));
+            drawing.sample(Place(x, y - 4.0), self.color(curve));
+            let mut text = curve.engine.clone();
             if let (Some(all), Some(last)) = (curve.exponent, curve.last_exponent) {
                 text += &format!(": n^{all:.2}; n^{last:.2} between the last two");
             }
@@ -94,18 +83,34 @@ impl Panel<'_> {
         drawing.small(Place(x + 36.0, y), Anchor::Start, "in proportion to the bodies");
     }
 
-    /// Colour of the engine, dashes of the number of threads.
-    fn style(&self, curve: &Curve, curves: &[&Curve]) -> (&'static str, &'static str) {
-        let engine = self.engines.iter().position(|engine| *engine == curve.engine).unwrap_or(0);
-        let mut numbers: Vec<usize> = curves.iter().map(|curve| curve.threads).collect();
-        numbers.dedup();
-        let order = numbers.iter().position(|number| *number == curve.threads).unwrap_or(0);
-        (color(engine), DASHES[order % DASHES.len()])
+    fn color(&self, curve: &Curve) -> &'static str {
+        color(self.engines.iter().position(|engine| *engine == curve.engine).unwrap_or(0))
     }
 }
 
+/// Both axes with their numbers and the lines across.
+fn rule(drawing: &mut Drawing, frame: Frame, across: &Axis, up: &Axis) {
+    for tick in across.ticks() {
+        let x = across.at(tick.value);
+        drawing.line(Place(x, frame.top), Place(x, frame.bottom), PALE);
+        if tick.labelled {
+            drawing.small(Place(x, frame.bottom + LINE), Anchor::Middle, &number(tick.value));
+        }
+    }
+    for tick in up.ticks() {
+        let y = up.at(tick.value);
+        drawing.line(Place(frame.left, y), Place(frame.right, y), PALE);
+        if tick.labelled {
+            drawing.small(Place(frame.left - 6.0, y + 4.0), Anchor::End, &number(tick.value));
+        }
+    }
+    drawing.line(Place(frame.left, frame.bottom), Place(frame.right, frame.bottom), INK);
+    let middle = 0.5 * (frame.left + frame.right);
+    drawing.small(Place(middle, frame.bottom + 2.1 * LINE), Anchor::Middle, "bodies");
+}
+
 /// From the first curve's first point on, in proportion to the bodies as far as the panel goes.
-fn proportional(curves: &[&Curve], up: &Axis) -> Option<[Point; 2]> {
+fn proportional(curves: &[Curve], up: &Axis) -> Option<[Point; 2]> {
     let first = *curves.iter().find_map(|curve| curve.points.first())?;
     let most = curves.iter().flat_map(|curve| &curve.points).map(|point| point.bodies).max()?;
     let factor = (most as f64 / first.bodies as f64).min(up.high() / first.ms);

@@ -194,6 +194,10 @@ impl Body {
 
     /// Adds a collider.
     pub fn collider(mut self, collider: Collider) -> Self {
+        if self.colliders.is_empty() {
+            // Most bodies have one.
+            self.colliders.reserve_exact(1);
+        }
         self.colliders.push(collider);
         self
     }

@@ -20,7 +20,7 @@
 //! The shape may be that of a body that slides over others, or the ground under a body of several colliders.
 
 use super::time_of_impact::Approach;
-use crate::bodies::{ColliderRow, WORLD_ROW};
+use crate::bodies::{ColliderRow, Record, WORLD_ROW};
 use crate::collide::{self, ContactPoint, Manifold, Wanted, lies_beyond_a_side};
 use crate::math::{DVec3, Pose};
 use crate::shape::Shape;
@@ -79,7 +79,7 @@ pub(super) fn leave_out_idle(
     (time, margin): (f64, f64),
     manifolds: &mut Vec<Manifold>,
 ) {
-    if manifolds.is_empty() {
+    if manifolds.is_empty() || is_seamless(approach) {
         return;
     }
     let seam = Seam { approach, time, margin };
@@ -88,6 +88,15 @@ pub(super) fn leave_out_idle(
         return;
     }
     manifolds.retain_mut(|manifold| beside.iter_mut().all(|beside| seam.holds(manifold, beside)));
+}
+
+/// Whether two balls meet, of bodies that have no other collider: their normal leads from centre to centre, whatever is beside them.
+fn is_seamless(approach: &Approach) -> bool {
+    [approach.a, approach.b].into_iter().all(|collider| {
+        let is_single = |record: &Record| record.colliders.len() == 1;
+        matches!(collider.shape, Shape::Sphere { .. })
+            && approach.bodies.record(collider.slot).is_some_and(is_single)
+    })
 }
 
 /// A question about manifolds of an approach.

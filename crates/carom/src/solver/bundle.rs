@@ -130,6 +130,13 @@ pub(crate) mod field {
 /// One contact's numbers, line by line.
 pub(crate) type Lane = [f32; field::COUNT];
 
+/// The numbers of a lane that touches nothing: no mass to push, and nothing that it could leave.
+pub(crate) const NO_CONTACT: Lane = {
+    let mut lane = [0.0; field::COUNT];
+    lane[field::PARTING] = f32::MAX;
+    lane
+};
+
 /// Contacts that share no body that can be moved.
 #[derive(Clone, Debug)]
 pub(crate) struct Bundle {
@@ -141,9 +148,16 @@ pub(crate) struct Bundle {
 }
 
 impl Bundle {
-    /// A bundle of lanes that touch nothing: no mass to push, between the world and the world.
-    pub const EMPTY: Bundle =
-        Bundle { a: [0; LANES], b: [0; LANES], points: 0, lines: [Line::ZERO; field::COUNT] };
+    /// A bundle of lanes that touch nothing, between the world and the world.
+    pub const EMPTY: Bundle = {
+        let mut lines = [Line::ZERO; field::COUNT];
+        let mut line = 0;
+        while line < field::COUNT {
+            lines[line] = Line([NO_CONTACT[line]; LANES]);
+            line += 1;
+        }
+        Bundle { a: [0; LANES], b: [0; LANES], points: 0, lines }
+    };
 
     pub fn write(&mut self, lane: usize, [a, b]: [u32; 2], values: &Lane) {
         (self.a[lane], self.b[lane]) = (a, b);

@@ -99,10 +99,8 @@ impl Island {
     /// Writes the velocities found.
     pub fn write(&self, velocities: &mut [Row]) {
         for (mover, change) in self.movers.iter().zip(&self.changes) {
-            let velocity = mover.after(change);
-            for axis in 0..6 {
-                velocities[mover.row as usize].0[axis] = velocity[axis] as f32;
-            }
+            let velocity = mover.after(change).map(|value| value as f32);
+            velocities[mover.row as usize].0[..6].copy_from_slice(&velocity);
         }
     }
 

@@ -17,7 +17,7 @@ mod wrench;
 pub(crate) use agree::Effort;
 pub(crate) use wrench::Wrench;
 
-use super::bundle::{Bundle, Lane, POINTS, field};
+use super::bundle::{Bundle, Lane, NO_CONTACT, POINTS, field};
 use super::lanes::{LANES, Line, Machine, Row};
 use crate::step::pool::Pool;
 use islands::Islands;
@@ -187,7 +187,7 @@ impl Graph {
         if last.is_multiple_of(LANES) {
             color.bundles.pop();
         } else {
-            color.bundles[last / LANES].write(last % LANES, [0; 2], &[0.0; field::COUNT]);
+            color.bundles[last / LANES].write(last % LANES, [0; 2], &NO_CONTACT);
         }
         self.places[id.0 as usize] = None;
         self.free.push(id.0);
@@ -211,16 +211,17 @@ impl Graph {
     }
 
     /// Finds displacements for all overlaps beyond `allowed` (m), into rows that hold none yet: they take `share` of what is beyond `left`
-    /// away. And which contact pushes how: displacements times masses, in place of impulses (kg·m).
+    /// away. And tells which contact pushes how: displacements times masses, in place of impulses (kg·m).
     pub fn push_out(
         &mut self,
         displacements: &mut [Row],
-        share: f32,
-        [allowed, left]: [f32; 2],
-    ) -> Vec<Wrench> {
+        (share, [allowed, left]): (f32, [f32; 2]),
+        wrenches: &mut Vec<Wrench>,
+    ) {
+        wrenches.clear();
         let overlaps = |bundle: &Bundle| bundle.lines[field::GAP].0.iter().any(|&gap| gap < -allowed);
         if !self.colors.iter().flat_map(|color| &color.bundles).any(overlaps) {
-            return Vec::new();
+            return;
         }
         let impulses: Vec<[Line; POINTS]> = self
             .order()
@@ -238,14 +239,13 @@ impl Graph {
         for _ in 0..PUSH_SWEEPS {
             self.sweep_normals(displacements);
         }
-        let wrenches = self.wrenches(displacements);
+        self.wrenches(displacements, wrenches);
         let mut impulses = impulses.into_iter();
         self.each_bundle(|bundle| {
             for (point, line) in impulses.next().into_iter().flatten().enumerate() {
                 bundle.lines[field::of_point(point, field::IMPULSE)] = line;
             }
         });
-        wrenches
     }
 }
 

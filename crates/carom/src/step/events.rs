@@ -24,7 +24,7 @@ use crate::step::pairs::Pairs;
 use crate::step::profile::{self, Phase};
 use crate::step::rest::{Rest, Span};
 pub(crate) use agenda::Agenda;
-use agenda::Event;
+use agenda::{Answer, Event};
 use std::cmp::Reverse;
 
 /// So many impacts of one pair in one step are taken one by one. If it is then down to this fraction of its fastest, the
@@ -36,20 +36,11 @@ const RATTLE_SPEED: f64 = 0.01;
 /// So many touches of one body in one step are taken one by one; a body with more is wedged, and its touches rest.
 const WEDGED_TOUCHES: u32 = 1024;
 
-/// What a pair answers when it is asked for its next touch.
-struct Answer {
-    /// Until when it has been asked, s.
-    until: f64,
-    /// How far apart it was when it was asked, at least, if somebody had to look.
-    gap: Option<Gap>,
-    /// How far apart it stays until then, and is then, as far as that is known, m.
-    apart: [f64; 2],
-    /// When it touches, if it does.
-    instant: Option<f64>,
-}
-
 /// So many pairs asked are worth sharing out.
 const QUESTIONS: usize = 64;
+
+/// So many are asked before their answers are noted: in a large world answers would take more room than the pairs.
+const AT_ONCE: usize = 4096;
 
 /// The touches of one step.
 pub(crate) struct Events<'a> {
@@ -83,12 +74,14 @@ impl<'a> Events<'a> {
     pub fn substep(&mut self, span: Span) {
         self.pairs.watch_again(self.bodies, self.agenda.rerouted.drain(..), self.law.step);
         self.rest.adopt(self.bodies, self.pairs, self.law, span);
-        let renewed = self.rest.hold(self.bodies, self.pairs, self.law, span);
+        let mut renewed = std::mem::take(&mut self.agenda.renewed);
+        self.rest.hold(self.bodies, self.pairs, (self.law, span), &mut renewed);
         self.claim_anew(&renewed, span.from);
         renewed.iter().for_each(|&row| self.agenda.is_renewed[row] = true);
         self.pairs.watch_again(self.bodies, renewed.iter().copied(), self.law.step);
         self.ask_due(span);
-        renewed.into_iter().for_each(|row| self.agenda.is_renewed[row] = false);
+        renewed.drain(..).for_each(|row| self.agenda.is_renewed[row] = false);
+        self.agenda.renewed = renewed;
         while let Some(Reverse(event)) = self.agenda.queue.peek().copied() {
             if event.time > span.until {
                 break;
@@ -123,11 +116,15 @@ impl<'a> Events<'a> {
 
     /// Asks all these pairs when they will touch, from the start of `span` on.
     fn ask_all(&mut self, mut due: Vec<usize>, span: Span) {
-        let answers = self.rest.pool().map(&due, QUESTIONS, |&index| self.answer(index, span));
-        for (index, answer) in due.drain(..).zip(answers) {
-            self.note(index, answer, span);
+        let mut answers = std::mem::take(&mut self.agenda.answers);
+        for due in due.chunks(AT_ONCE) {
+            self.rest.pool().map_into(due, QUESTIONS, |&index| self.answer(index, span), &mut answers);
+            for (&index, answer) in due.iter().zip(answers.drain(..)) {
+                self.note(index, answer, span);
+            }
         }
-        self.agenda.due = due;
+        due.clear();
+        (self.agenda.due, self.agenda.answers) = (due, answers);
     }
 
     /// All that has happened, each impact with its time within the step.

@@ -67,14 +67,20 @@ pub(crate) fn advance(bodies: &mut Bodies, row: usize, time: f64) {
 }
 
 /// The same for many, shared out among the threads of `pool`.
-pub(crate) fn advance_all(bodies: &mut Bodies, rows: &[usize], time: f64, pool: &Pool) {
+pub(crate) fn advance_all(
+    bodies: &mut Bodies,
+    rows: impl ExactSizeIterator<Item = usize>,
+    time: f64,
+    pool: &Pool,
+) {
     let _phase = profile::phase(Phase::Fly);
     if !pool.shares(rows.len(), FLIGHTS) {
-        return rows.iter().for_each(|&row| advance(bodies, row, time));
+        return rows.for_each(|row| advance(bodies, row, time));
     }
+    let rows: Vec<usize> = rows.collect();
     let flown = |&row: &usize| is_behind(bodies, row, time).then(|| state_at(bodies, row, time));
-    let states = pool.map(rows, FLIGHTS, flown);
-    for (&row, state) in rows.iter().zip(states) {
+    let states = pool.map(&rows, FLIGHTS, flown);
+    for (row, state) in rows.into_iter().zip(states) {
         if let Some(state) = state {
             arrive(bodies, row, &state, time);
         }
@@ -160,6 +166,6 @@ pub(crate) fn state_at(bodies: &Bodies, row: usize, time: f64) -> RigidState {
 
 /// Lets all bodies fly from where they are to the end of the step.
 pub(crate) fn finish_flight(bodies: &mut Bodies, time: f64, pool: &Pool) {
-    let rows: Vec<usize> = bodies.rows().collect();
-    advance_all(bodies, &rows, time, pool);
+    let rows = bodies.rows();
+    advance_all(bodies, rows, time, pool);
 }

@@ -6,12 +6,14 @@
 //! ```text
 //! pairs.rs        all pairs, and those of each body
 //! pairs/pair.rs   one pair
+//! pairs/blocks.rs where they are kept
 //! pairs/watch.rs  those that are looked at in each substep
 //! ```
 //!
 //! A pair keeps its index as long as it is near. Indices depend on what happened before; whoever walks pairs in an order that
 //! results depend on walks them in the order of their colliders' keys, as they stand in the lists here.
 
+mod blocks;
 mod pair;
 #[cfg(test)]
 mod tests;
@@ -20,6 +22,7 @@ mod watch;
 use crate::bodies::{Bodies, WORLD_ROW};
 use crate::step::broad_phase::{BroadPhase, ColliderPair};
 use crate::step::profile::{self, Phase};
+use blocks::Blocks;
 pub(crate) use pair::{Pair, Support};
 use watch::Watch;
 
@@ -33,7 +36,7 @@ struct Entry {
 /// All pairs.
 #[derive(Default)]
 pub(crate) struct Pairs {
-    list: Vec<Option<Pair>>,
+    list: Blocks<Option<Pair>>,
     free: Vec<u32>,
     /// The pairs of each body, in order of their colliders' keys.
     of_row: Vec<Vec<Entry>>,

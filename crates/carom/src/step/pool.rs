@@ -19,8 +19,12 @@
 mod crew;
 
 use crew::Crew;
+use smallvec::{SmallVec, smallvec};
 use std::ops::Range;
 use std::sync::{Mutex, OnceLock, PoisonError};
+
+/// What comes of stretches: of one, where nothing is shared out.
+type Results<R> = SmallVec<[R; 1]>;
 
 /// The threads that step a world.
 pub(crate) struct Pool {
@@ -54,8 +58,26 @@ impl Pool {
     /// Each item's result, in their order; a unit has at least `grain` items, worth some microseconds. Deterministic if `map` is a
     /// function of the item alone.
     pub fn map<T: Sync, R: Send>(&self, items: &[T], grain: usize, map: impl Fn(&T) -> R + Sync) -> Vec<R> {
-        let of = |range: Range<usize>| items[range].iter().map(&map).collect::<Vec<R>>();
-        self.ranges(items.len(), grain, of).into_iter().flatten().collect()
+        let mut results = Vec::new();
+        self.map_into(items, grain, map, &mut results);
+        results
+    }
+
+    /// The same, in place of what `results` has been.
+    pub fn map_into<T: Sync, R: Send>(
+        &self,
+        items: &[T],
+        grain: usize,
+        map: impl Fn(&T) -> R + Sync,
+        results: &mut Vec<R>,
+    ) {
+        results.clear();
+        if self.shares(items.len(), grain) {
+            let of = |range: Range<usize>| items[range].iter().map(&map).collect::<Vec<R>>();
+            self.ranges(items.len(), grain, of).into_iter().for_each(|mut part| results.append(&mut part));
+        } else {
+            results.extend(items.iter().map(map));
+        }
     }
 
     /// What `act` gives for stretches of `0..count`, in their order; each has at least `grain` numbers, unless there are fewer.
@@ -65,10 +87,10 @@ impl Pool {
         count: usize,
         grain: usize,
         act: impl Fn(Range<usize>) -> R + Sync,
-    ) -> Vec<R> {
+    ) -> Results<R> {
         let units = (count / grain.max(1)).min(crew::UNITS);
         if !self.shares(count, grain) {
-            return if count == 0 { Vec::new() } else { vec![act(0..count)] };
+            return (count > 0).then(|| act(0..count)).into_iter().collect();
         }
         let results: Vec<Mutex<Option<R>>> = (0..units).map(|_| Mutex::new(None)).collect();
         let unit = |unit: usize| {
@@ -77,7 +99,7 @@ impl Pool {
         };
         let crew = self.crew.get_or_init(|| Crew::new(self.threads - 1));
         if !crew.run(units, &unit) {
-            return vec![act(0..count)];
+            return smallvec![act(0..count)];
         }
         let result = |slot: Mutex<Option<R>>| slot.into_inner().unwrap_or_else(PoisonError::into_inner);
         results.into_iter().filter_map(result).collect()
@@ -89,7 +111,7 @@ impl Pool {
         items: &mut [T],
         grain: usize,
         act: impl Fn(usize, &mut [T]) -> R + Sync,
-    ) -> Vec<R> {
+    ) -> Results<R> {
         let shared = crew::Disjoint::new(items);
         self.ranges(shared.len(), grain, |range| {
             let first = range.start;

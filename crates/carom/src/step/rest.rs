@@ -18,6 +18,7 @@
 //! rest/crowds.rs    where many bodies rest against each other
 //! rest/hold.rs      impulses
 //! rest/give.rs      the paths that they give; rest capture
+//! rest/work.rs      what is known of each body meanwhile
 //! rest/push_out.rs  overlaps out
 //! ```
 
@@ -29,6 +30,7 @@ mod remember;
 mod renew;
 #[cfg(test)]
 mod validate;
+mod work;
 
 use crate::bodies::{Bodies, WORLD_ROW};
 use crate::impacts::time_of_impact::{Approach, Kept, RestLaw};
@@ -43,6 +45,7 @@ use crate::step::pool::Pool;
 use crate::step::profile::{self, Phase};
 use crowds::Crowds;
 use std::sync::Arc;
+use work::Work;
 
 /// Contacts, and the bodies that they hold.
 pub(crate) struct Rest {
@@ -53,6 +56,9 @@ pub(crate) struct Rest {
     crowds: Crowds,
     /// Whose each contact is.
     owners: Vec<Owner>,
+    work: Work,
+    /// Whether each body's contacts are to be renewed.
+    has_moved: Vec<bool>,
 }
 
 /// The pair that a contact belongs to.
@@ -82,6 +88,8 @@ impl Rest {
             resting: Vec::new(),
             crowds: Crowds::default(),
             owners: Vec::new(),
+            work: Work::default(),
+            has_moved: Vec::new(),
         }
     }
 

@@ -57,7 +57,7 @@ impl Graph {
         }
         // Islands that are about to rest: no body moves fast against another.
         let quiet: Vec<bool> =
-            self.spreads(velocities).iter().map(|&spread| spread <= effort.quiet).collect();
+            self.spreads(velocities).iter().map(|spread| spread.width() <= effort.quiet).collect();
         self.solve_small(velocities, (effort, &quiet, &open), mobility);
         let sizes = self.islands.sizes.iter().zip(&quiet);
         let most: Vec<u32> =

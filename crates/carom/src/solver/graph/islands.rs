@@ -19,6 +19,10 @@ pub(super) struct Islands {
     pub shores: Vec<(usize, u32)>,
     /// For how many more substeps the body of each row is not worth a direct solve: the last one led nowhere.
     pub pauses: Vec<u32>,
+    /// How fast the bodies of each island move against each other.
+    spreads: Vec<Spread>,
+    /// Whether something holds of all rows of each island.
+    is_whole: Vec<bool>,
 }
 
 /// No island: the world and what is driven.
@@ -67,7 +71,7 @@ impl Sets {
 
 /// The box around the velocities of an island's bodies.
 #[derive(Clone, Copy)]
-struct Spread {
+pub(super) struct Spread {
     low: [f32; 3],
     high: [f32; 3],
 }
@@ -82,7 +86,8 @@ impl Spread {
         }
     }
 
-    fn width(&self) -> f32 {
+    /// How fast they move against each other, m/s.
+    pub fn width(&self) -> f32 {
         (0..3).map(|axis| self.high[axis] - self.low[axis]).fold(0.0, f32::max)
     }
 }
@@ -94,29 +99,34 @@ impl Graph {
     }
 
     /// Lets what `holds` of single rows hold of whole islands only: of an island in which it fails for one row it holds of none.
-    pub fn in_whole_islands(&self, holds: &mut [bool]) {
-        let mut whole = vec![true; self.islands.sizes.len()];
+    pub fn in_whole_islands(&mut self, holds: &mut [bool]) {
+        let mut is_whole = std::mem::take(&mut self.islands.is_whole);
+        is_whole.clear();
+        is_whole.resize(self.islands.sizes.len(), true);
         for (row, _) in holds.iter().enumerate().filter(|(_, holds)| !**holds) {
             if let Some(island) = self.islands.of(row as u32) {
-                whole[island] = false;
+                is_whole[island] = false;
             }
         }
         for (row, holds) in holds.iter_mut().enumerate() {
-            *holds &= self.islands.of(row as u32).is_none_or(|island| whole[island]);
+            *holds &= self.islands.of(row as u32).is_none_or(|island| is_whole[island]);
         }
+        self.islands.is_whole = is_whole;
     }
 
-    /// How fast the bodies of each island move against each other, m/s.
-    pub(super) fn spreads(&self, velocities: &[Row]) -> Vec<f32> {
-        let mut spreads = vec![Spread::NONE; self.islands.sizes.len()];
-        let rows = self.islands.of_row.iter().zip(velocities);
+    /// How fast the bodies of each island move against each other.
+    pub(super) fn spreads(&mut self, velocities: &[Row]) -> &[Spread] {
+        let Islands { of_row, sizes, shores, spreads, .. } = &mut self.islands;
+        spreads.clear();
+        spreads.resize(sizes.len(), Spread::NONE);
+        let rows = of_row.iter().zip(velocities);
         for (&island, velocity) in rows.filter(|(island, _)| **island != NONE) {
             spreads[island as usize].include(velocity);
         }
-        for &(island, row) in &self.islands.shores {
+        for &(island, row) in shores.iter() {
             spreads[island].include(&velocities[row as usize]);
         }
-        spreads.iter().map(Spread::width).collect()
+        spreads
     }
 
     /// Finds the islands, if contacts have come or gone since.
@@ -164,8 +174,8 @@ impl Graph {
                 shores.push(shore);
             }
         }
-        let mut pauses = std::mem::take(&mut self.islands.pauses);
-        pauses.resize(rows, 0);
-        self.islands = Islands { is_stale: false, of_row, sizes, bodies, shores, pauses };
+        let mut old = std::mem::take(&mut self.islands);
+        old.pauses.resize(rows, 0);
+        self.islands = Islands { is_stale: false, of_row, sizes, bodies, shores, ..old };
     }
 }

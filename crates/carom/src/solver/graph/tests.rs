@@ -133,7 +133,8 @@ fn impulses_act_again_only_where_they_do_no_work() {
         ids.push(graph.insert([0, number as u32 + 1], [false, true], &lane));
     }
     let mut velocities = problem.rows();
-    graph.begin(&mut velocities, [1e-4, 0.0], 1.0 / 240.0);
+    let unpushed = velocities.clone();
+    graph.begin(&unpushed, &mut velocities, [1e-4, 0.0], 1.0 / 240.0);
     graph.validate(|row| row > 0);
     assert!(velocities[1].0[1].abs() < 1e-6, "{:?}", velocities[1]);
     assert_eq!(velocities[2], problem.rows()[2]);
@@ -169,7 +170,8 @@ fn a_lively_contact_loses_its_impulses_without_what_rests_beneath_it() {
         })
         .collect();
     let mut velocities = problem.rows();
-    graph.begin(&mut velocities, [1e-4, 1.0], 1.0 / 240.0);
+    let unpushed = velocities.clone();
+    graph.begin(&unpushed, &mut velocities, [1e-4, 1.0], 1.0 / 240.0);
     graph.validate(|row| row > 0);
     let impulse = |id: ContactId| graph.get(id, field::of_point(0, field::IMPULSE));
     assert_eq!([impulse(ids[0]), impulse(ids[1])], [2.0 * GAIN as f32, 0.0]);
@@ -197,11 +199,14 @@ fn any_number_of_threads_gives_the_same_bits() {
         let mut displacements = velocities.clone();
         for _ in 0..2 {
             graph.measure(&drifts);
-            graph.begin(&mut velocities, [1e-4, 0.0], 1.0 / 240.0);
+            let unpushed = velocities.clone();
+            graph.begin(&unpushed, &mut velocities, [1e-4, 0.0], 1.0 / 240.0);
             graph.solve(&mut velocities, effort, |row| problem.mobility(row));
         }
-        let mut wrenches = graph.wrenches(&velocities);
-        wrenches.extend(graph.push_out(&mut displacements, 0.5, [0.0; 2]));
+        let (mut wrenches, mut pushes) = (Vec::new(), Vec::new());
+        graph.wrenches(&velocities, &mut wrenches);
+        graph.push_out(&mut displacements, (0.5, [0.0; 2]), &mut pushes);
+        wrenches.append(&mut pushes);
         assert_eq!(pool.has_workers(), threads > 1);
         let pushes = wrenches.iter().map(|it| (it.contact, it.impulse(), it.moment())).collect::<Vec<_>>();
         let residuals = graph

@@ -22,24 +22,29 @@ struct Lively {
 }
 
 impl Graph {
-    /// Lets the impulses of the last substep act again, where they are a good start; returns the velocities before. Contacts are lively
-    /// whose bodies move faster than `lively` (m/s) against each other.
-    pub fn begin(&mut self, velocities: &mut [Row], [margin, lively]: [f64; 2], substep: f64) -> Vec<Row> {
+    /// Lets the impulses of the last substep act again on the velocities `before`, where they are a good start. Contacts are lively whose
+    /// bodies move faster than `lively` (m/s) against each other.
+    pub fn begin(
+        &mut self,
+        before: &[Row],
+        velocities: &mut [Row],
+        [margin, lively]: [f64; 2],
+        substep: f64,
+    ) {
         let _phase = profile::phase(Phase::Solve);
         let limits = [margin as f32, (1.0 / substep) as f32];
-        let before = velocities.to_vec();
-        self.resume((&before, velocities), limits);
+        velocities.copy_from_slice(before);
+        self.resume((before, velocities), limits);
         self.find_islands(velocities.len());
-        if self.refuse_gains([&before, velocities], lively as f32) {
-            velocities.copy_from_slice(&before);
-            self.resume((&before, velocities), limits);
+        if self.refuse_gains([before, velocities], lively as f32) {
+            velocities.copy_from_slice(before);
+            self.resume((before, velocities), limits);
         }
-        before
     }
 
     /// Takes the impulses of those lively contacts away that have done work together; whether there are any.
     fn refuse_gains(&mut self, [before, after]: [&[Row]; 2], lively: f32) -> bool {
-        if !self.spreads(before).iter().any(|&spread| spread > lively) {
+        if !self.spreads(before).iter().any(|spread| spread.width() > lively) {
             return false;
         }
         let contacts = self.lively([before, after], lively);

@@ -5,7 +5,7 @@
 //! centre* between both, as the arms are.
 
 use super::passes::GRAIN;
-use super::{ContactId, Graph};
+use super::{Color, ContactId, Graph};
 use crate::math::DVec3;
 use crate::solver::bundle::{Bundle, POINTS, field};
 use crate::solver::contact::{line, vector};
@@ -94,44 +94,46 @@ fn sum_up<L: Lanes>(bundle: &Bundle) -> [Line; SUMS] {
     sums
 }
 
-/// [`sum_up`], of many.
-struct SumUp<'a> {
+/// What the contacts of some bundles exert that exert anything on a body of `rows` that can be moved.
+struct Find<'a> {
     bundles: &'a [Bundle],
+    /// The contact of each lane.
+    contacts: &'a [u32],
+    rows: &'a [Row],
+    found: &'a mut Vec<Wrench>,
 }
 
-impl Kernel for SumUp<'_> {
-    type Output = Vec<[Line; SUMS]>;
+impl Kernel for Find<'_> {
+    type Output = ();
 
     #[inline(always)]
-    fn run<L: Lanes>(self) -> Self::Output {
-        let mut sums = Vec::with_capacity(self.bundles.len());
-        for (index, bundle) in self.bundles.iter().enumerate() {
+    fn run<L: Lanes>(self) {
+        for (index, (bundle, contacts)) in self.bundles.iter().zip(self.contacts.chunks(LANES)).enumerate() {
             bring_next::<L>(self.bundles, index, field::SWEPT);
-            sums.push(sum_up::<L>(bundle));
+            add_wrenches((bundle, &sum_up::<L>(bundle)), contacts, self.rows, self.found);
         }
-        sums
     }
 }
 
 impl Graph {
-    /// What all contacts exert that exert anything on a body of `rows` that can be moved.
-    pub fn wrenches(&self, rows: &[Row]) -> Vec<Wrench> {
-        let count = self.colors.iter().map(|color| color.contacts.len()).sum();
-        let mut wrenches = Vec::with_capacity(count);
-        for color in self.order().map(|color| &self.colors[color]) {
-            let stretches = self.pool.ranges(color.bundles.len(), GRAIN, |range| {
-                let contacts = color.contacts[range.start * LANES..].chunks(LANES);
-                let bundles = &color.bundles[range];
-                let sums = self.machine.run(SumUp { bundles });
-                let mut found = Vec::with_capacity(bundles.len() * LANES);
-                for ((bundle, sums), contacts) in bundles.iter().zip(sums).zip(contacts) {
-                    add_wrenches((bundle, &sums), contacts, rows, &mut found);
-                }
+    /// Finds what all contacts exert that exert anything on a body of `rows` that can be moved.
+    pub fn wrenches(&self, rows: &[Row], found: &mut Vec<Wrench>) {
+        found.clear();
+        found.reserve(self.colors.iter().map(|color| color.contacts.len()).sum());
+        for Color { bundles, contacts, .. } in self.order().map(|color| &self.colors[color]) {
+            if !self.pool.shares(bundles.len(), GRAIN) {
+                self.machine.run(Find { bundles, contacts, rows, found });
+                continue;
+            }
+            let stretches = self.pool.ranges(bundles.len(), GRAIN, |range| {
+                let contacts = &contacts[range.start * LANES..contacts.len().min(range.end * LANES)];
+                let bundles = &bundles[range];
+                let mut found = Vec::with_capacity(contacts.len());
+                self.machine.run(Find { bundles, contacts, rows, found: &mut found });
                 found
             });
-            stretches.into_iter().for_each(|mut found| wrenches.append(&mut found));
+            stretches.into_iter().for_each(|mut stretch| found.append(&mut stretch));
         }
-        wrenches
     }
 }
 

@@ -1,5 +1,6 @@
 //! Touches that are to come, and whom they concern.
 
+use crate::collide::Gap;
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
@@ -27,17 +28,31 @@ impl PartialOrd for Event {
     }
 }
 
+/// What a pair answers when it is asked for its next touch.
+pub(super) struct Answer {
+    /// Until when it has been asked, s.
+    pub until: f64,
+    /// How far apart it was when it was asked, at least, if somebody had to look.
+    pub gap: Option<Gap>,
+    /// How far apart it stays until then, and is then, as far as that is known, m.
+    pub apart: [f64; 2],
+    /// When it touches, if it does.
+    pub instant: Option<f64>,
+}
+
 /// What the touches of a step are kept in, from step to step.
 #[derive(Default)]
 pub(crate) struct Agenda {
     pub(super) queue: BinaryHeap<Reverse<Event>>,
     pub(super) touches_of_row: Vec<u32>,
-    /// Whether contacts have given each row a new path at the start of the substep.
+    /// The rows that contacts have given new paths at the start of the substep, and whether each is one of them.
+    pub(super) renewed: Vec<usize>,
     pub(super) is_renewed: Vec<bool>,
     /// Rows that a touch has given new paths.
     pub(super) rerouted: Vec<usize>,
     /// Pairs that are to be asked.
     pub(super) due: Vec<usize>,
+    pub(super) answers: Vec<Answer>,
     /// How many impacts there were in the last step.
     pub(super) impacts: usize,
 }

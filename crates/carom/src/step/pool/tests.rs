@@ -76,7 +76,7 @@ fn who_is_held_up_in_one_unit_holds_up_nothing_else() {
         let waited = changed.wait_timeout_while(others, limit, |others| *others < UNITS - 1);
         !waited.unwrap().1.timed_out()
     });
-    assert_eq!(finished, [true; UNITS]);
+    assert_eq!(finished[..], [true; UNITS]);
 }
 
 #[test]

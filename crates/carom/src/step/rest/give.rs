@@ -5,14 +5,15 @@
 //! path that it gets. Where a collision takes it off that path, the force goes on acting at the place where it was: see
 //! [`Plan`].
 
+use super::hold::is_free;
+use super::work::{Change, Work};
 use super::{Rest, Span};
-use crate::bodies::Bodies;
+use crate::bodies::{Bodies, WORLD_ROW};
 use crate::flight::{Influence, mean_center};
 use crate::impacts::time_of_impact::RestLaw;
 use crate::ledger::contacts::{Exerted, captured};
 use crate::ledger::flights::set_out;
 use crate::math::DVec3;
-use crate::solver::graph::Wrench;
 use crate::step::motion::{Plan, set_pace};
 
 /// What rests on something with friction, goes nowhere and moves no faster than [`CAPTURED`] rest thresholds loses
@@ -29,75 +30,80 @@ const DRIVEN: f64 = 0.01;
 const LINGERED: f64 = 1.0;
 
 /// A body that contacts hold and impulses move, in one substep.
-pub(super) struct Held {
-    pub row: usize,
+struct Held {
+    row: usize,
     /// Velocity (m/s) and angular momentum (N·m·s) that gravity and the user's forces give it.
-    pub gain: [DVec3; 2],
+    gain: [DVec3; 2],
     /// Whether the forces on it persist.
-    pub steady: bool,
+    steady: bool,
     /// Whether it touches something with friction.
-    pub rough: bool,
+    rough: bool,
 }
 
-/// What a substep does to a body.
-#[derive(Clone, Copy, Default)]
-struct Change {
-    /// Of velocity (m/s) and angular momentum (N·m·s).
-    velocity: DVec3,
-    momentum: DVec3,
-    /// Whether rest capture takes from it, and how much of the velocity that is, m/s.
-    captured: bool,
-    captured_velocity: DVec3,
+impl Held {
+    fn of(work: &Work, row: usize) -> Self {
+        Self {
+            row,
+            gain: work.gains[row],
+            steady: work.is_steady[row] || !work.is_pushed[row],
+            rough: work.is_rough[row],
+        }
+    }
 }
 
 impl Rest {
-    /// Gives the impulses of the `wrenches` to the bodies `held`.
-    pub(super) fn give(
-        &mut self,
-        bodies: &mut Bodies,
-        wrenches: &[Wrench],
-        held: &[Held],
-        (law, span): (RestLaw, Span),
-    ) {
+    /// Gives the impulses of the contacts to the bodies that they hold.
+    pub(super) fn give(&mut self, bodies: &mut Bodies, work: &mut Work, (law, span): (RestLaw, Span)) {
         let substep = span.until - span.from;
-        let mut impulses = vec![DVec3::ZERO; bodies.states.len()];
-        for wrench in wrenches {
+        for wrench in &work.wrenches {
             let [a, b] = wrench.rows;
-            impulses[a] -= wrench.impulse();
-            impulses[b] += wrench.impulse();
+            work.impulses[a] -= wrench.impulse();
+            work.impulses[b] += wrench.impulse();
         }
-        let mut changes = Vec::with_capacity(held.len());
-        let mut centers: Vec<DVec3> = bodies.states.iter().map(|state| state.position).collect();
-        for body in held {
-            let change = self.push_center(bodies, body, impulses[body.row], (law, substep));
-            centers[body.row] = mean_place(bodies, body, change.velocity, substep);
-            changes.push(change);
-        }
-        let mut turns = vec![DVec3::ZERO; impulses.len()];
-        for wrench in wrenches {
-            let push = [wrench.impulse(), wrench.moment()];
-            let centers = wrench.rows.map(|row| centers[row]);
-            for (side, row) in wrench.rows.into_iter().enumerate() {
-                turns[row] += wrench.turn(side, push, centers);
-            }
-            if let Some(journal) = &mut bodies.journal {
-                journal.note_causes(wrench, centers, self.owners[wrench.contact.index()].bounces);
+        work.centers[WORLD_ROW] = bodies.states[WORLD_ROW].position;
+        for &row in &work.rows {
+            work.centers[row] = bodies.states[row].position;
+            if is_free(bodies, row) {
+                let body = Held::of(work, row);
+                let change = self.push_center(bodies, &body, work.impulses[row], (law, substep));
+                work.centers[row] = mean_place(bodies, &body, change.velocity, substep);
+                work.changes[row] = change;
             }
         }
-        for (body, mut change) in held.iter().zip(changes) {
-            let row = body.row;
+        self.turn(bodies, work);
+        for &row in &work.rows {
+            if !is_free(bodies, row) {
+                continue;
+            }
+            let (body, mut change) = (Held::of(work, row), work.changes[row]);
             let rotation = bodies.states[row].rotation;
-            change.momentum = body.gain[1] + bodies.constants[row].turning_part(rotation, turns[row]);
+            change.momentum = body.gain[1] + bodies.constants[row].turning_part(rotation, work.turns[row]);
             if change.captured {
                 let turn = capture_spin(bodies, row, &mut change, law);
                 let impulse = change.captured_velocity * bodies.constants[row].mass();
                 captured(bodies, row, [impulse, turn]);
             }
-            follow(bodies, body, &change, span);
+            follow(bodies, &body, &change, span);
             set_pace(bodies, row, span.until);
         }
         if let Some(journal) = &mut bodies.journal {
+            let [impulses, turns, centers] =
+                [&mut work.impulses, &mut work.turns, &mut work.centers].map(std::mem::take);
             journal.exerted = Some(Exerted { impulses, turns, centers, time: substep });
+        }
+    }
+
+    /// Adds up how the contacts turn each body.
+    fn turn(&self, bodies: &mut Bodies, work: &mut Work) {
+        for wrench in &work.wrenches {
+            let push = [wrench.impulse(), wrench.moment()];
+            let centers = wrench.rows.map(|row| work.centers[row]);
+            for (side, row) in wrench.rows.into_iter().enumerate() {
+                work.turns[row] += wrench.turn(side, push, centers);
+            }
+            if let Some(journal) = &mut bodies.journal {
+                journal.note_causes(wrench, centers, self.owners[wrench.contact.index()].bounces);
+            }
         }
     }
 

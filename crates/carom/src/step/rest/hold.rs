@@ -1,6 +1,6 @@
 //! What holds the bodies that rest during a substep.
 
-use super::give::Held;
+use super::work::{Work, copy};
 use super::{Rest, Span};
 use crate::bodies::Bodies;
 use crate::flight::Influence;
@@ -37,64 +37,68 @@ const BUDGET: u32 = 40_000;
 const STEADY: f64 = 0.05;
 
 impl Rest {
-    /// Finds what holds the bodies that rest on something during `span`, and gives them their paths; returns the rows whose
-    /// paths are new.
-    pub fn hold(&mut self, bodies: &mut Bodies, pairs: &mut Pairs, law: RestLaw, span: Span) -> Vec<usize> {
-        let held = self.rows.held().to_vec();
-        advance_all(bodies, &held, span.from, self.graph.pool());
+    /// Finds what holds the bodies that rest on something during `span`, and gives them their paths; tells the rows whose paths are new.
+    pub fn hold(
+        &mut self,
+        bodies: &mut Bodies,
+        pairs: &mut Pairs,
+        (law, span): (RestLaw, Span),
+        rerouted: &mut Vec<usize>,
+    ) {
+        let mut work = std::mem::take(&mut self.work);
+        copy(&mut work.rows, self.rows.held());
+        advance_all(bodies, work.rows.iter().copied(), span.from, self.graph.pool());
         settle(bodies);
-        if held.is_empty() {
-            return Vec::new();
+        if !work.rows.is_empty() {
+            self.renew_moved(bodies, pairs, &work.rows, (law, span));
+            self.free(bodies, law, &mut work);
+            copy(&mut work.rows, self.rows.held());
+            self.push(bodies, pairs, (law, span), &mut work);
+            rerouted.extend_from_slice(&work.rows);
+            rerouted.append(&mut work.freed);
         }
-        let mut freed = Vec::new();
-        self.renew_moved(bodies, pairs, &held, (law, span));
-        for row in held.into_iter().filter(|&row| !self.rows.is_held(row)) {
+        self.work = work;
+    }
+
+    /// Lets those of the rows fly that no contact holds any more.
+    fn free(&self, bodies: &mut Bodies, law: RestLaw, work: &mut Work) {
+        for &row in work.rows.iter().filter(|&&row| !self.rows.is_held(row)) {
             if !bodies.is_asleep(row) {
                 bodies.influences[row] = free_influence(bodies, row, law.gravity);
                 set_pace(bodies, row, law.step);
-                freed.push(row);
+                work.freed.push(row);
             }
         }
-        let mut rerouted = self.push(bodies, pairs, (law, span));
-        rerouted.append(&mut freed);
-        rerouted
     }
 
     /// Solves, and gives the impulses found to the bodies.
-    fn push(&mut self, bodies: &mut Bodies, pairs: &Pairs, (law, span): (RestLaw, Span)) -> Vec<usize> {
+    fn push(&mut self, bodies: &mut Bodies, pairs: &Pairs, (law, span): (RestLaw, Span), work: &mut Work) {
         let _phase = profile::phase(Phase::Give);
         let substep = span.until - span.from;
-        let is_rough = self.rough_rows(bodies.states.len(), pairs);
-        let rows = self.rows.held().to_vec();
-        let gains: Vec<[DVec3; 2]> = rows.iter().map(|&row| self.gain(bodies, row, (law, substep))).collect();
+        work.begin(bodies.states.len());
+        self.find_rough(pairs, &mut work.is_rough);
+        for &row in &work.rows {
+            work.gains[row] = self.gain(bodies, row, (law, substep));
+        }
         let gravity = law.gravity.length() * substep;
         let limits = [law.contact_margin(), LIVELY * gravity];
-        let unpushed = self.graph.begin(&mut self.rows.velocities, limits, substep);
-        let persisting: Vec<Row> = rows.iter().map(|&row| self.rows.velocities[row]).collect();
+        let velocities = &mut self.rows.velocities;
+        work.unpushed.clone_from(velocities);
+        self.graph.begin(&work.unpushed, velocities, limits, substep);
+        work.persisting.clone_from(velocities);
         self.solve(bodies, gravity);
 
-        let mut is_steady = vec![true; bodies.states.len()];
-        for ((&row, gain), warm) in rows.iter().zip(&gains).zip(persisting) {
-            let sudden = self.sudden_change(row, [&unpushed[row], &warm], bodies.grains[row]);
-            is_steady[row] = sudden <= STEADY * gain[0].length() || !is_free(bodies, row);
+        for &row in &work.rows {
+            let before = [&work.unpushed[row], &work.persisting[row]];
+            let sudden = self.sudden_change(row, before, bodies.grains[row]);
+            work.is_steady[row] = sudden <= STEADY * work.gains[row][0].length() || !is_free(bodies, row);
         }
-        self.graph.in_whole_islands(&mut is_steady);
-        let wrenches = self.graph.wrenches(&self.rows.velocities);
-        let mut is_pushed = vec![false; bodies.states.len()];
-        wrenches.iter().flat_map(|wrench| wrench.rows).for_each(|row| is_pushed[row] = true);
-        let held: Vec<Held> = rows
-            .iter()
-            .zip(gains)
-            .filter(|(row, _)| is_free(bodies, **row))
-            .map(|(&row, gain)| Held {
-                row,
-                gain,
-                steady: is_steady[row] || !is_pushed[row],
-                rough: is_rough[row],
-            })
-            .collect();
-        self.give(bodies, &wrenches, &held, (law, span));
-        rows
+        self.graph.in_whole_islands(&mut work.is_steady);
+        self.graph.wrenches(&self.rows.velocities, &mut work.wrenches);
+        for wrench in &work.wrenches {
+            wrench.rows.into_iter().for_each(|row| work.is_pushed[row] = true);
+        }
+        self.give(bodies, work, (law, span));
     }
 
     /// How far (m/s) a body of this grain (m) is from being pushed as in the substep before: by the same contacts, or by others in their
@@ -107,14 +111,13 @@ impl Rest {
         size(difference(&after, persisting)).min(size(difference(&given, &before)))
     }
 
-    /// Which bodies touch something with friction.
-    fn rough_rows(&self, rows: usize, pairs: &Pairs) -> Vec<bool> {
-        let mut is_rough = vec![false; rows];
+    /// Finds which bodies touch something with friction.
+    fn find_rough(&self, pairs: &Pairs, is_rough: &mut [bool]) {
         for &index in &self.resting {
             let pair = &pairs[index];
-            pair.rows.into_iter().for_each(|row| is_rough[row] |= pair.surface.static_friction > 0.0);
+            let rubs = pair.surface.static_friction > 0.0;
+            pair.rows.into_iter().for_each(|row| is_rough[row] |= rubs);
         }
-        is_rough
     }
 
     /// Reads the velocity that a body would have at the end of the substep if no contact pushed; what of it, and of its angular
@@ -155,7 +158,7 @@ impl Rest {
 }
 
 /// Whether impulses change how the body of a row moves.
-fn is_free(bodies: &Bodies, row: usize) -> bool {
+pub(super) fn is_free(bodies: &Bodies, row: usize) -> bool {
     bodies.constants[row].is_movable() && !bodies.is_asleep(row)
 }
 

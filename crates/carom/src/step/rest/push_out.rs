@@ -1,6 +1,7 @@
 //! Overlaps are pushed out at the end of a step; velocities stay.
 
 use super::Rest;
+use super::work::{Work, copy, fill};
 use crate::bodies::Bodies;
 use crate::impacts::time_of_impact::RestLaw;
 use crate::ledger::contacts::{pushed_out, shifted, stock};
@@ -21,8 +22,9 @@ impl Rest {
     /// momentum about any point; to give that to their spins would be a blow that nobody has struck.
     pub fn push_out(&mut self, bodies: &mut Bodies, law: RestLaw) {
         let _phase = profile::phase(Phase::PushOut);
-        let held = self.rows.held().to_vec();
-        for &row in &held {
+        let mut work = std::mem::take(&mut self.work);
+        copy(&mut work.rows, self.rows.held());
+        for &row in &work.rows {
             self.rows.read_drift(bodies, row);
             let moves = bodies.constants[row].is_movable() && !bodies.is_asleep(row);
             let inverse_mass = if moves { bodies.constants[row].inverse_mass as f32 } else { 0.0 };
@@ -33,12 +35,18 @@ impl Rest {
         self.graph.measure(&self.rows.drifts);
         let allowed = law.overlap_left();
         let limits = [allowed as f32, (LEFT * allowed) as f32];
-        let wrenches = self.graph.push_out(&mut self.rows.displacements, PUSH_OUT, limits);
-        if wrenches.is_empty() {
-            return;
+        self.graph.push_out(&mut self.rows.displacements, (PUSH_OUT, limits), &mut work.wrenches);
+        if !work.wrenches.is_empty() {
+            self.displace(bodies, &mut work);
         }
-        let mut moves = vec![DVec3::ZERO; bodies.states.len()];
-        for wrench in &wrenches {
+        self.work = work;
+    }
+
+    /// Moves the bodies by what has been found.
+    fn displace(&self, bodies: &mut Bodies, work: &mut Work) {
+        let moves = &mut work.impulses;
+        fill(moves, bodies.states.len(), DVec3::ZERO);
+        for wrench in &work.wrenches {
             let [push, _] = wrench.normal;
             let inverse_masses = wrench.rows.map(|row| self.inverse_mass(bodies, row));
             let [inverse_a, inverse_b] = inverse_masses;
@@ -46,7 +54,7 @@ impl Rest {
             moves[wrench.rows[1]] += push * inverse_b;
             shifted(bodies, wrench, inverse_masses);
         }
-        for &row in &held {
+        for &row in &work.rows {
             let angular = self.rows.displacements[row].0;
             let angular = DVec3::new(angular[3].into(), angular[4].into(), angular[5].into());
             if moves[row] != DVec3::ZERO || angular != DVec3::ZERO {

@@ -6,6 +6,7 @@
 
 use super::crowds::reach_in_crowd;
 use super::remember::remembered;
+use super::work::fill;
 use super::{Owner, Rest, Span, horizon};
 use crate::bodies::{Bodies, ColliderRow};
 use crate::collide::Manifold;
@@ -116,6 +117,7 @@ impl Rest {
         let movable = pair.rows.map(|row| bodies.constants[row].is_movable());
         (pair.is_pressed, pair.is_outdated) = (view.is_pressed, false);
         let owner = owner(bodies, pair, index, view.contacts.len());
+        pair.supports.reserve_exact(view.contacts.len());
         for (number, (manifold, lane)) in view.contacts.iter().enumerate() {
             let contact = match old.get(number) {
                 Some(support) => {
@@ -148,7 +150,8 @@ impl Rest {
         at: (RestLaw, Span),
     ) {
         let _phase = profile::phase(Phase::Renew);
-        let mut has_moved = vec![false; bodies.states.len()];
+        let mut has_moved = std::mem::take(&mut self.has_moved);
+        fill(&mut has_moved, bodies.states.len(), false);
         for &row in held {
             let [way, turn] = self.rows.read_drift(bodies, row);
             let [most, most_turn] = self.limits(bodies, row, at.0);
@@ -162,6 +165,7 @@ impl Rest {
             pair.rests && (pair.is_outdated || pair.rows.into_iter().any(|row| has_moved[row]))
         };
         let stale: Vec<usize> = self.resting.iter().copied().filter(stale).collect();
+        self.has_moved = has_moved;
         self.renew_all(bodies, pairs, stale, at);
         let noted = self.graph.measure(&self.rows.drifts);
         let mut noted: Vec<usize> =

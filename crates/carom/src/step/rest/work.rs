@@ -1,0 +1,70 @@
+//! What a substep's contacts come to, until it is given to the bodies.
+//!
+//! Kept from substep to substep, so that nothing is asked of the allocator while all lies still.
+
+use crate::math::DVec3;
+use crate::solver::graph::Wrench;
+use crate::solver::lanes::Row;
+
+/// Of each row, unless said otherwise.
+#[derive(Default)]
+pub(super) struct Work {
+    /// The rows of the bodies that contacts hold, and of those that they hold no more.
+    pub rows: Vec<usize>,
+    pub freed: Vec<usize>,
+    /// Velocities with no contact pushing, and with those that go on pushing as before.
+    pub unpushed: Vec<Row>,
+    pub persisting: Vec<Row>,
+    /// Velocity (m/s) and angular momentum (N·m·s) that gravity and the user's forces give.
+    pub gains: Vec<[DVec3; 2]>,
+    /// Whether the body touches something with friction.
+    pub is_rough: Vec<bool>,
+    /// Whether the forces on it persist.
+    pub is_steady: Vec<bool>,
+    /// Whether contacts push it.
+    pub is_pushed: Vec<bool>,
+    /// What each contact exerts.
+    pub wrenches: Vec<Wrench>,
+    /// The sum of the impulses (N·s), and of their turns about the mean place of the centre of mass (N·m·s; m).
+    pub impulses: Vec<DVec3>,
+    pub turns: Vec<DVec3>,
+    pub centers: Vec<DVec3>,
+    pub changes: Vec<Change>,
+}
+
+/// What a substep does to a body.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Change {
+    /// Of velocity (m/s) and angular momentum (N·m·s).
+    pub velocity: DVec3,
+    pub momentum: DVec3,
+    /// Whether rest capture takes from it, and how much of the velocity that is, m/s.
+    pub captured: bool,
+    pub captured_velocity: DVec3,
+}
+
+impl Work {
+    /// Makes room for `count` rows, of which nothing is known yet.
+    pub fn begin(&mut self, count: usize) {
+        fill(&mut self.is_rough, count, false);
+        fill(&mut self.is_steady, count, true);
+        fill(&mut self.is_pushed, count, false);
+        fill(&mut self.impulses, count, DVec3::ZERO);
+        fill(&mut self.turns, count, DVec3::ZERO);
+        self.gains.resize(count, [DVec3::ZERO; 2]);
+        self.centers.resize(count, DVec3::ZERO);
+        self.changes.resize(count, Change::default());
+    }
+}
+
+/// Makes a list the same as another.
+pub(super) fn copy<T: Copy>(list: &mut Vec<T>, other: &[T]) {
+    list.clear();
+    list.extend_from_slice(other);
+}
+
+/// Gives a list so many values.
+pub(super) fn fill<T: Clone>(list: &mut Vec<T>, count: usize, value: T) {
+    list.clear();
+    list.resize(count, value);
+}
