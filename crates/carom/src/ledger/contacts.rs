@@ -11,14 +11,14 @@ use crate::math::DVec3;
 use crate::solver::graph::Wrench;
 
 /// What contacts exert during a substep, row by row.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Exerted {
     /// What they give together: impulse, and angular impulse about the centre of mass.
     pub impulses: Vec<DVec3>,
     pub turns: Vec<DVec3>,
     /// Where the centres of mass are when the impulses act, or in the mean.
     pub centers: Vec<DVec3>,
-    /// Length of the substep, s.
+    /// Length of the substep, s; 0 once it is booked.
     pub time: f64,
 }
 
@@ -73,7 +73,8 @@ fn add_sides(
 /// Books what contacts have exerted in the substep that is over.
 pub(crate) fn settle(bodies: &mut Bodies) {
     let Some(mut journal) = bodies.journal.take() else { return };
-    if let Some(exerted) = journal.exerted.take() {
+    let mut exerted = std::mem::take(&mut journal.exerted);
+    if exerted.time > 0.0 {
         for row in 0..exerted.impulses.len() {
             journal.book_row(bodies, row, &exerted);
             // Whoever is held in the next substep will be told so.
@@ -82,7 +83,9 @@ pub(crate) fn settle(bodies: &mut Bodies) {
             }
         }
         journal.rebounds.clear();
+        exerted.time = 0.0;
     }
+    journal.exerted = exerted;
     bodies.journal = Some(journal);
 }
 

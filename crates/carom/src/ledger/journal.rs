@@ -31,7 +31,7 @@ pub(crate) struct Journal {
     /// Whether bodies still have what they had then: nobody has been at them.
     is_known: bool,
     /// What contacts exert in the present substep.
-    pub exerted: Option<Exerted>,
+    pub exerted: Exerted,
     /// Row by row, by which causes: nothing, where no substep is under way.
     pub causes: Vec<Causes>,
     /// Row by row, what contacts give along their normals that bounce when struck faster; empty if there are none.

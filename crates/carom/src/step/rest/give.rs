@@ -87,9 +87,11 @@ impl Rest {
             set_pace(bodies, row, span.until);
         }
         if let Some(journal) = &mut bodies.journal {
-            let [impulses, turns, centers] =
-                [&mut work.impulses, &mut work.turns, &mut work.centers].map(std::mem::take);
-            journal.exerted = Some(Exerted { impulses, turns, centers, time: substep });
+            let Exerted { impulses, turns, centers, time } = &mut journal.exerted;
+            std::mem::swap(impulses, &mut work.impulses);
+            std::mem::swap(turns, &mut work.turns);
+            std::mem::swap(centers, &mut work.centers);
+            *time = substep;
         }
     }
 
