@@ -58,7 +58,7 @@ impl Approach<'_> {
             spin * collider.spin_reach
         };
         let turning = turning(self.a) + turning(self.b);
-        let (velocity, acceleration, braking) = self.relative_motion(from);
+        let (velocity, acceleration, braking) = self.relative_motion(from, until);
         let limit = velocity.length()
             + (acceleration.length() + braking) * (until - from)
             + turning
@@ -66,14 +66,15 @@ impl Approach<'_> {
         Pace { until, limit, turning, least: BITE * self.thinner() / limit }
     }
 
-    /// Velocity (m/s) and acceleration (m/s²) of the centre of mass of `b` against that of `a` at `time`, and what damping changes
-    /// the velocity by at most, m/s².
-    fn relative_motion(&self, time: f64) -> (DVec3, DVec3, f64) {
+    /// Velocity (m/s) and acceleration (m/s²) of the centre of mass of `b` against that of `a` at `time`, and at what rate (m/s²) damping
+    /// changes the velocity at most until some time.
+    fn relative_motion(&self, time: f64, until: f64) -> (DVec3, DVec3, f64) {
         let center = |collider: &ColliderRow| {
             let (state, row) = (&self.bodies.states[collider.row], collider.row);
             let (constants, influence) = (&self.bodies.constants[row], &self.bodies.influences[row]);
             let (_, velocity) = fly_center(state, constants, influence, time - self.bodies.clocks[row]);
-            (velocity, influence.acceleration, constants.linear_damping * velocity.length())
+            let fastest = velocity.length() + influence.acceleration.length() * (until - time);
+            (velocity, influence.acceleration, constants.linear_damping * fastest)
         };
         let (velocity_a, acceleration_a, braking_a) = center(self.a);
         let (velocity_b, acceleration_b, braking_b) = center(self.b);
@@ -91,7 +92,7 @@ impl Approach<'_> {
         let Some(normal) = gap.normal.filter(|_| separation > 0.0) else {
             return Look { time, separation, limit: pace.limit };
         };
-        let (velocity, acceleration, braking) = self.relative_motion(time);
+        let (velocity, acceleration, braking) = self.relative_motion(time, pace.until);
         let faster = (braking - acceleration.dot(normal).min(0.0)) * (pace.until - time);
         let closing = faster + pace.turning - velocity.dot(normal);
         Look { time, separation, limit: closing.clamp(f64::MIN_POSITIVE, pace.limit) }
@@ -252,3 +253,6 @@ impl Approach<'_> {
         closing
     }
 }
+
+#[cfg(test)]
+mod tests;
