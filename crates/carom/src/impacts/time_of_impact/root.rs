@@ -84,7 +84,7 @@ mod tests {
             let (time, asked) = find(f, [0.0, 1.0]);
             let around = f(time - 1e-9) >= 0.0 && f(time + 1e-9) <= 0.0;
             assert!(f(time).abs() <= 1e-12 || (around && f(time) <= 0.0), "{number}: {time} {}", f(time));
-            assert!(asked <= 80, "{number}: {asked}");
+            assert!(asked <= 64, "{number}: {asked}");
         }
     }
 }

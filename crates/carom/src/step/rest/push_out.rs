@@ -44,7 +44,7 @@ impl Rest {
 
     /// Moves the bodies by what has been found.
     fn displace(&self, bodies: &mut Bodies, work: &mut Work) {
-        let moves = &mut work.impulses;
+        let moves = &mut work.moves;
         fill(moves, bodies.states.len(), DVec3::ZERO);
         for wrench in &work.wrenches {
             let [push, _] = wrench.normal;

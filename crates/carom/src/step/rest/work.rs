@@ -30,6 +30,8 @@ pub(super) struct Work {
     pub turns: Vec<DVec3>,
     pub centers: Vec<DVec3>,
     pub changes: Vec<Change>,
+    /// How far overlaps push it out at the end of a step, m.
+    pub moves: Vec<DVec3>,
 }
 
 /// What a substep does to a body.

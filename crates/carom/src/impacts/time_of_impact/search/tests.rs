@@ -1,5 +1,6 @@
 //! The search against a dense row of looks.
 
+use super::BITE;
 use crate::impacts::time_of_impact::{Approach, RestLaw};
 use crate::math::DVec3;
 use crate::solver::tests::Random;
@@ -60,7 +61,7 @@ fn nothing_comes_into_anything_before_the_touch_that_is_found() {
             .map(|time| approach.separation(time))
             .fold(f64::INFINITY, f64::min);
         // A graze may be passed over: by how much is what a step of the march goes on at least.
-        assert!(deepest > -0.02 * approach.thinner(), "{number}: {deepest} m until {until} s");
+        assert!(deepest > -BITE * approach.thinner(), "{number}: {deepest} m until {until} s");
         match found {
             Some(time) => {
                 touches += 1;
