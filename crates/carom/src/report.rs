@@ -22,6 +22,18 @@ pub enum Feature {
     Face(u32),
 }
 
+impl Feature {
+    /// A number that tells features of a shape apart, up to 2³⁰ of each kind.
+    pub(crate) fn key(self) -> u32 {
+        match self {
+            Feature::Surface => 0,
+            Feature::Vertex(number) => number << 2 | 1,
+            Feature::Edge(number) => number << 2 | 2,
+            Feature::Face(number) => number << 2 | 3,
+        }
+    }
+}
+
 /// A collider that was in a sensor at some time of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Overlap {

@@ -114,7 +114,7 @@ impl<'a> Instant<'a> {
         if !instant.places.iter().any(|place| place.closing(&instant.movers) > place.rest_speed) {
             instant.add(first, &Manifold::single(touch.normal, touch.contact), touch.rest_speed, f64::MAX);
         }
-        for row in instant.pairs[first].rows {
+        for row in instant.pairs[first].rows() {
             let mover = instant.mover(row);
             instant.open(mover);
         }
@@ -211,7 +211,7 @@ impl<'a> Instant<'a> {
             return true;
         }
         let speed = |side: usize| {
-            let row = pair.rows[side];
+            let row = pair.rows()[side];
             let (linear, angular) = match self.mover_of_row.binary_search_by_key(&row, |&(row, _)| row) {
                 Ok(place) => {
                     let mover = self.mover_of_row[place].1;
@@ -237,7 +237,7 @@ impl<'a> Instant<'a> {
         let touching = if pair.rests { margin } else { approach.tolerance() };
         let margin = margin.max(touching);
         let is_far = || {
-            pair.least_separation(self.bodies, self.time) > margin
+            self.pairs.least_separation(self.bodies, index, self.time) > margin
                 || pair.least_facing(self.bodies, (self.time, self.time))[0] > margin
         };
         if !pair.rests && is_far() {
@@ -256,7 +256,7 @@ impl<'a> Instant<'a> {
     /// Adds the places of a manifold; up to a separation of `touching` they touch.
     fn add(&mut self, index: usize, manifold: &Manifold, rest_speed: f64, touching: f64) {
         let pair = &self.pairs[index];
-        let (rows, surface) = (pair.rows, pair.surface);
+        let (rows, surface) = (pair.rows(), pair.surface);
         let Some(centers) = self.centers(index) else { return };
         let movers = rows.map(|row| self.mover(row));
         for contact in manifold.points() {

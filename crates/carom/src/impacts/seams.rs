@@ -132,7 +132,8 @@ impl Seam<'_> {
                     continue;
                 }
                 let pair = &pairs[index];
-                let may_touch = || pair.least_separation(bodies, self.time) <= self.margin + approach.flush();
+                let may_touch =
+                    || pairs.least_separation(bodies, index, self.time) <= self.margin + approach.flush();
                 if !pair.sensor
                     && (pair.rests || may_touch())
                     && !found.iter().any(|beside| beside.other == other)

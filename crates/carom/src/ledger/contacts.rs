@@ -63,7 +63,7 @@ fn add_sides(
 ) {
     let [a, b] = pushes;
     let lever = (center_b - center_a).cross(impulse);
-    let from_a = lever * wrench.share;
+    let from_a = lever * wrench.share();
     a.impulse -= impulse;
     a.turn -= moment + from_a;
     b.impulse += impulse;
@@ -104,13 +104,13 @@ impl Journal {
     /// has it at hand: causes add up body by body as the whole does, so that no contact has to be gone through again.
     #[inline]
     pub fn note_causes(&mut self, wrench: &Wrench, centers: [DVec3; 2], bounces: bool) {
-        if let Ok(sides) = self.causes.get_disjoint_mut(wrench.rows) {
-            add_sides(sides.map(|causes| &mut causes.friction), wrench, wrench.across, centers);
+        if let Ok(sides) = self.causes.get_disjoint_mut(wrench.rows()) {
+            add_sides(sides.map(|causes| &mut causes.friction), wrench, wrench.across(), centers);
         }
         if bounces {
             self.rebounds.resize(self.causes.len(), Push::default());
-            if let Ok(sides) = self.rebounds.get_disjoint_mut(wrench.rows) {
-                add_sides(sides, wrench, wrench.normal, centers);
+            if let Ok(sides) = self.rebounds.get_disjoint_mut(wrench.rows()) {
+                add_sides(sides, wrench, wrench.normal(), centers);
             }
         }
     }
@@ -212,9 +212,9 @@ pub(crate) fn stock(bodies: &Bodies, row: usize) -> Option<Stock> {
 pub(crate) fn shifted(bodies: &mut Bodies, wrench: &Wrench, inverse_masses: [f64; 2]) {
     let Some(journal) = bodies.journal.as_deref_mut() else { return };
     let posts = &mut journal.posts;
-    let shift = |side: usize| wrench.normal[0].cross(bodies.states[wrench.rows[side]].velocity);
+    let shift = |side: usize| wrench.normal()[0].cross(bodies.states[wrench.rows()[side]].velocity);
     let mut account = |other: usize, shift: DVec3| {
-        let row = wrench.rows[other];
+        let row = wrench.rows()[other];
         let is_fixed = row == WORLD_ROW || bodies.constants[row].inverse_mass > 0.0;
         let account = if is_fixed { &mut posts.fixed } else { &mut posts.kinematic };
         account.angular += shift;

@@ -24,7 +24,7 @@ use super::lanes::{LANES, Lanes, Line, Row, Tensor, Vector};
 use super::rows::SharedRows;
 
 /// The contact frame of each lane.
-struct Frame<L> {
+pub(crate) struct Frame<L> {
     first: Vector<L>,
     second: Vector<L>,
     normal: Vector<L>,
@@ -32,7 +32,7 @@ struct Frame<L> {
 
 impl<L: Lanes> Frame<L> {
     #[inline(always)]
-    fn load(bundle: &Bundle, part: usize) -> Self {
+    pub fn load(bundle: &Bundle, part: usize) -> Self {
         let first = vector(bundle, field::TANGENT, part);
         let normal = vector(bundle, field::NORMAL, part);
         Self { first, second: normal.cross(first), normal }
@@ -44,7 +44,7 @@ impl<L: Lanes> Frame<L> {
     }
 
     #[inline(always)]
-    fn outward(&self, v: Vector<L>) -> Vector<L> {
+    pub fn outward(&self, v: Vector<L>) -> Vector<L> {
         self.first.scaled(v.x) + self.second.scaled(v.y) + self.normal.scaled(v.z)
     }
 }

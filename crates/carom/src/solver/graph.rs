@@ -33,11 +33,24 @@ impl ContactId {
     }
 }
 
-/// Where a contact is.
+/// Where a contact is, if its id is used.
 #[derive(Clone, Copy, Debug)]
 struct Place {
-    color: usize,
-    lane: usize,
+    color: u32,
+    lane: u32,
+}
+
+impl Place {
+    const NOWHERE: Place = Place { color: u32::MAX, lane: 0 };
+
+    fn new(color: usize, lane: usize) -> Self {
+        Self { color: color as u32, lane: lane as u32 }
+    }
+
+    /// The colour, and the lane in it.
+    fn get(self) -> Option<(usize, usize)> {
+        (self.color != u32::MAX).then_some((self.color as usize, self.lane as usize))
+    }
 }
 
 /// Contacts that share no body that can be moved.
@@ -75,7 +88,7 @@ const FIXED: usize = 1;
 pub(crate) struct Graph {
     /// Even: between bodies that move. Odd: with what does not.
     colors: Vec<Color>,
-    places: Vec<Option<Place>>,
+    places: Vec<Place>,
     free: Vec<u32>,
     islands: Islands,
     machine: Machine,
@@ -105,49 +118,54 @@ impl Graph {
             self.colors.push(Color::default());
         }
         let id = self.free.pop().unwrap_or_else(|| {
-            self.places.push(None);
+            self.places.push(Place::NOWHERE);
             (self.places.len() - 1) as u32
         });
         let target = &mut self.colors[color];
-        let place = Place { color, lane: target.contacts.len() };
+        let place = target.contacts.len();
         for side in (0..2).filter(|&side| movable[side]) {
             target.mark(rows[side], true);
         }
         target.contacts.push(id);
-        if place.lane.is_multiple_of(LANES) {
+        if place.is_multiple_of(LANES) {
+            if target.bundles.len() == target.bundles.capacity() {
+                target.bundles.reserve_exact((target.bundles.len() / 8).max(4));
+            }
             target.bundles.push(Bundle::EMPTY);
         }
-        target.bundles[place.lane / LANES].write(place.lane % LANES, rows, lane);
-        self.places[id as usize] = Some(place);
+        target.bundles[place / LANES].write(place % LANES, rows, lane);
+        self.places[id as usize] = Place::new(color, place);
         self.islands.is_stale = true;
         ContactId(id)
     }
 
-    fn place(&self, id: ContactId) -> Option<Place> {
-        self.places.get(id.0 as usize).copied().flatten()
+    /// The colour and the lane of a contact.
+    fn place(&self, id: ContactId) -> Option<(usize, usize)> {
+        self.places.get(id.index()).copied().and_then(Place::get)
+    }
+
+    /// Its bundle, and the lane in that.
+    fn bundle(&self, id: ContactId) -> Option<(&Bundle, usize)> {
+        self.place(id).map(|(color, lane)| (&self.colors[color].bundles[lane / LANES], lane % LANES))
     }
 
     /// Gives a contact other numbers.
     pub fn write(&mut self, id: ContactId, lane: &Lane) {
-        if let Some(place) = self.place(id) {
-            let bundle = &mut self.colors[place.color].bundles[place.lane / LANES];
-            let (rows, _) = bundle.read(place.lane % LANES);
-            bundle.write(place.lane % LANES, rows, lane);
+        if let Some((color, place)) = self.place(id) {
+            let bundle = &mut self.colors[color].bundles[place / LANES];
+            let (rows, _) = bundle.read(place % LANES);
+            bundle.write(place % LANES, rows, lane);
         }
     }
 
     /// One of a contact's numbers.
     pub fn get(&self, id: ContactId, field: usize) -> f32 {
-        self.place(id).map_or(0.0, |place| {
-            self.colors[place.color].bundles[place.lane / LANES].get(place.lane % LANES, field)
-        })
+        self.bundle(id).map_or(0.0, |(bundle, lane)| bundle.get(lane, field))
     }
 
     /// Whether all points of a contact are out of its reach.
     pub fn has_left(&self, id: ContactId) -> bool {
-        self.place(id).is_some_and(|place| {
-            self.colors[place.color].bundles[place.lane / LANES].has_left(place.lane % LANES)
-        })
+        self.bundle(id).is_some_and(|(bundle, lane)| bundle.has_left(lane))
     }
 
     /// The contacts with a gap of no more than `margin` (m).
@@ -161,15 +179,12 @@ impl Graph {
 
     /// The rows of a contact's bodies.
     pub fn rows(&self, id: ContactId) -> [u32; 2] {
-        self.place(id).map_or([0; 2], |place| {
-            let bundle = &self.colors[place.color].bundles[place.lane / LANES];
-            [bundle.a[place.lane % LANES], bundle.b[place.lane % LANES]]
-        })
+        self.bundle(id).map_or([0; 2], |(bundle, lane)| [bundle.a[lane], bundle.b[lane]])
     }
 
     /// Removes a contact; the last of its colour takes its lane.
     pub fn remove(&mut self, id: ContactId) {
-        let Some(Place { color, lane }) = self.place(id) else { return };
+        let Some((color, lane)) = self.place(id) else { return };
         let color = &mut self.colors[color];
         let last = color.contacts.len() - 1;
         let (rows, _) = color.bundles[lane / LANES].read(lane % LANES);
@@ -179,9 +194,7 @@ impl Graph {
             color.bundles[lane / LANES].write(lane % LANES, rows, &moved);
             let contact = color.contacts[last];
             color.contacts[lane] = contact;
-            if let Some(place) = &mut self.places[contact as usize] {
-                place.lane = lane;
-            }
+            self.places[contact as usize].lane = lane as u32;
         }
         color.contacts.pop();
         if last.is_multiple_of(LANES) {
@@ -189,7 +202,7 @@ impl Graph {
         } else {
             color.bundles[last / LANES].write(last % LANES, [0; 2], &NO_CONTACT);
         }
-        self.places[id.0 as usize] = None;
+        self.places[id.index()] = Place::NOWHERE;
         self.free.push(id.0);
         self.islands.is_stale = true;
     }

@@ -24,6 +24,9 @@ use bounds::{Bounds, present_bounds, swept_bounds};
 use forecast::Forecast;
 use tree::Tree;
 
+/// Room is kept for so many pairs that a search finds.
+const ROOM: usize = 4096;
+
 /// A pair of colliders, the one of the lower slot first.
 pub(crate) type ColliderPair = (u32, u32);
 
@@ -138,6 +141,12 @@ impl BroadPhase {
     /// What the last search has found, in order; some of it may be known already.
     pub fn found(&self) -> &[ColliderPair] {
         &self.found
+    }
+
+    /// Forgets what the last search has found, with the room that it took if that was a whole world's.
+    pub fn forget_found(&mut self) {
+        self.found.clear();
+        self.found.shrink_to(ROOM);
     }
 
     /// The colliders that have got new boxes since they were last forgotten: some of their pairs may have parted.

@@ -87,7 +87,7 @@ impl<'a> Events<'a> {
                 break;
             }
             self.agenda.queue.pop();
-            if self.pairs[event.pair].now.stamp == event.stamp {
+            if self.pairs.now(event.pair).stamp == event.stamp {
                 self.touch(event.pair, Span { from: event.time, ..span });
             }
         }
@@ -100,13 +100,16 @@ impl<'a> Events<'a> {
         for number in 0..self.pairs.count_of_watched() {
             let index = self.pairs.watched(number);
             let pair = &self.pairs[index];
-            let is_renewed = pair.rows.into_iter().any(|row| self.agenda.is_renewed[row]);
-            let is_due = (is_renewed || pair.now.asked_until < span.until) && !pair.now.is_sensed;
+            let is_renewed = pair.rows().into_iter().any(|row| self.agenda.is_renewed[row]);
+            let now = self.pairs.now(index);
+            let is_due = (is_renewed || now.asked_until < span.until) && !now.is_sensed;
             if !is_due {
                 continue;
             }
             if pair.rests && (pair.is_pressed || self.rest.is_closed(pair)) {
-                self.pairs[index].now.asked_until = span.from;
+                if now.asked_until > span.from {
+                    self.pairs.now_mut(index).asked_until = span.from;
+                }
             } else {
                 due.push(index);
             }
@@ -143,14 +146,14 @@ impl<'a> Events<'a> {
     /// What a pair answers to that.
     fn answer(&self, index: usize, span: Span) -> Answer {
         let pair = &self.pairs[index];
-        let is_held = pair.rows.into_iter().any(|row| self.rest.is_held(row));
+        let is_held = pair.rows().into_iter().any(|row| self.rest.is_held(row));
         let until = if is_held { span.until } else { self.law.step };
         let mut answer = Answer { until, gap: None, apart: [f64::NEG_INFINITY; 2], instant: None };
         let may_touch = if pair.rests {
             !self.rest.presses(self.bodies, pair, self.law)
                 && self.rest.is_driven(self.bodies, pair, self.law, span)
         } else {
-            pair.least_separation(self.bodies, until) <= pair.tolerance
+            self.pairs.least_separation(self.bodies, index, until) <= pair.tolerance
         };
         if !may_touch {
             return answer;
@@ -191,25 +194,27 @@ impl<'a> Events<'a> {
 
     /// Notes what a pair has answered.
     fn note(&mut self, index: usize, Answer { until, gap, apart, instant }: Answer, span: Span) {
-        let pair = &mut self.pairs[index];
-        (pair.now.apart, pair.now.courses) = (apart, pair.rows.map(|row| self.bodies.courses[row]));
-        pair.now.stamp += 1;
-        (pair.now.asked_from, pair.now.asked_until) = (span.from, until);
+        let courses = self.pairs[index].rows().map(|row| self.bodies.courses[row]);
+        let now = self.pairs.now_mut(index);
+        (now.apart, now.courses) = (apart, courses);
+        now.stamp += 1;
+        (now.asked_from, now.asked_until) = (span.from, until);
+        let stamp = now.stamp;
         if let Some(gap) = gap {
-            pair.faced(self.bodies, gap, span.from);
+            self.pairs[index].faced(self.bodies, gap, span.from);
         }
         if let Some(time) = instant {
-            let (key, stamp) = (order(self.bodies, pair.colliders), pair.now.stamp);
+            let key = order(self.bodies, self.pairs[index].colliders);
             self.agenda.queue.push(Reverse(Event { time, key, pair: index, stamp }));
         }
     }
 
     fn touch(&mut self, index: usize, span: Span) {
         let _phase = profile::phase(Phase::Strike);
-        let (colliders, rows) = (self.pairs[index].colliders, self.pairs[index].rows);
+        let (colliders, rows) = (self.pairs[index].colliders, self.pairs[index].rows());
         let time = span.from;
         if self.pairs[index].sensor {
-            self.pairs[index].now.is_sensed = true;
+            self.pairs.now_mut(index).is_sensed = true;
             return;
         }
         for row in rows {
@@ -221,18 +226,18 @@ impl<'a> Events<'a> {
         let rests = self.pairs[index].rests;
         let kept = rests.then(|| {
             let pair = &self.pairs[index];
-            self.rest.kept(self.bodies, pair, (self.law, pair.now.asked_from))
+            self.rest.kept(self.bodies, pair, (self.law, self.pairs.now(index).asked_from))
         });
         let Some(approach) = Approach::of(self.bodies, colliders, self.law) else { return };
         let Some(touch) = approach.confirmed_touch(self.pairs, time, kept) else {
             // It vanished under a closer look: look again a moment later, the next time twice that.
-            let now = &mut self.pairs[index].now;
+            let now = self.pairs.now_mut(index);
             now.patience *= 2.0;
             let later = time + now.patience * self.law.step;
             if later < span.until {
                 self.ask(index, Span { from: later, ..span });
             } else {
-                self.pairs[index].now.asked_until = span.until;
+                self.pairs.now_mut(index).asked_until = span.until;
             }
             return;
         };
@@ -255,7 +260,7 @@ impl<'a> Events<'a> {
         let mut struck = outcome.struck;
         struck.sort_unstable_by_key(|&(pair, _)| self.pairs[pair].colliders);
         for (pair, stays) in struck {
-            self.pairs[pair].now.hits += 1;
+            self.pairs.now_mut(pair).hits += 1;
             if stays && !self.pairs[pair].rests {
                 self.rest.take(self.bodies, self.pairs, pair, (self.law, span));
             }
@@ -267,7 +272,7 @@ impl<'a> Events<'a> {
         self.reroute(outcome.rows, span);
         for pair in outcome.unfinished {
             self.rest.hand_back(self.pairs, pair);
-            let now = &mut self.pairs[pair].now;
+            let now = self.pairs.now_mut(pair);
             now.stamp += 1;
             now.asked_until = span.until;
         }
@@ -276,14 +281,16 @@ impl<'a> Events<'a> {
     /// Whether a touch is to be a contact, not an impact.
     fn comes_to_rest(&mut self, index: usize, touch: &Touch) -> bool {
         let closing = -touch.closing_speed;
-        let pair = &mut self.pairs[index];
-        pair.now.fastest = pair.now.fastest.max(closing);
+        let now = self.pairs.now_mut(index);
+        now.fastest = now.fastest.max(closing);
+        let (hits, fastest) = (now.hits, now.fastest);
+        let pair = &self.pairs[index];
         let rattles = if pair.surface.restitution > 0.0 {
-            pair.now.hits >= RATTLE_HITS && closing < RATTLE_SPEED * pair.now.fastest
+            hits >= RATTLE_HITS && closing < RATTLE_SPEED * fastest
         } else {
-            pair.now.hits > 0 && closing < RATTLE_SPEED * pair.now.fastest.max(self.law.rest_speed())
+            hits > 0 && closing < RATTLE_SPEED * fastest.max(self.law.rest_speed())
         };
-        let wedged = pair.rows.iter().any(|&row| self.agenda.touches_of_row[row] >= WEDGED_TOUCHES);
+        let wedged = pair.rows().iter().any(|&row| self.agenda.touches_of_row[row] >= WEDGED_TOUCHES);
         closing <= touch.rest_speed || rattles || wedged
     }
 
@@ -296,7 +303,7 @@ impl<'a> Events<'a> {
         let mut due = std::mem::take(&mut self.agenda.due);
         for row in rows {
             let pairs = (0..self.pairs.count_of_row(row)).map(|number| self.pairs.of_row(row, number));
-            due.extend(pairs.filter(|&index| !self.pairs[index].now.is_sensed));
+            due.extend(pairs.filter(|&index| !self.pairs.now(index).is_sensed));
         }
         due.sort_unstable();
         due.dedup();
@@ -311,7 +318,7 @@ impl<'a> Events<'a> {
             for &colliders in self.broad_phase.found() {
                 if let Some(new) = self.pairs.add(self.bodies, colliders) {
                     // To be asked by whoever asks all pairs of this body.
-                    self.pairs[new].now.asked_until = time;
+                    self.pairs.now_mut(new).asked_until = time;
                 }
             }
         }

@@ -27,7 +27,7 @@ pub(crate) fn quarantine(world: &mut World) {
 /// Tells what has been in a sensor.
 pub(crate) fn sense(world: &mut World) {
     let bodies = &world.bodies;
-    let sensed = world.pairs.changed().filter(|pair| pair.now.is_sensed).filter_map(|pair| {
+    let sensed = world.pairs.sensed().filter_map(|pair| {
         let (a, b) = (bodies.collider(pair.colliders.0)?, bodies.collider(pair.colliders.1)?);
         let (sensor, visitor) = if a.sensor { (a, b) } else { (b, a) };
         Some(Overlap {

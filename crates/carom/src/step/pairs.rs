@@ -23,7 +23,8 @@ use crate::bodies::{Bodies, WORLD_ROW};
 use crate::step::broad_phase::{BroadPhase, ColliderPair};
 use crate::step::profile::{self, Phase};
 use blocks::Blocks;
-pub(crate) use pair::{Pair, Support};
+use pair::Present;
+pub(crate) use pair::Pair;
 use watch::Watch;
 
 /// A pair in a list.
@@ -34,7 +35,6 @@ struct Entry {
 }
 
 /// All pairs.
-#[derive(Default)]
 pub(crate) struct Pairs {
     list: Blocks<Option<Pair>>,
     free: Vec<u32>,
@@ -42,7 +42,22 @@ pub(crate) struct Pairs {
     of_row: Vec<Vec<Entry>>,
     /// Pairs that somebody has got to change since the step began.
     changed: Vec<u32>,
+    /// What happens in the present step to pairs to which anything does; the first entry is what happens to the others.
+    presents: Vec<Present>,
     watch: Watch,
+}
+
+impl Default for Pairs {
+    fn default() -> Self {
+        Self {
+            list: Blocks::default(),
+            free: Vec::new(),
+            of_row: Vec::new(),
+            changed: Vec::new(),
+            presents: vec![Present::NOTHING],
+            watch: Watch::default(),
+        }
+    }
 }
 
 impl Pairs {
@@ -55,6 +70,7 @@ impl Pairs {
                 pair.begin_step();
             }
         }
+        self.presents.truncate(1);
         self.grow(bodies.states.len());
         let mut parted = Vec::new();
         for &key in broad_phase.boxed() {
@@ -73,6 +89,7 @@ impl Pairs {
         for &colliders in broad_phase.found() {
             self.add(bodies, colliders);
         }
+        broad_phase.forget_found();
         parted
     }
 
@@ -81,7 +98,7 @@ impl Pairs {
         let _phase = profile::phase(Phase::Watch);
         for &index in &self.changed {
             if let Some(pair) = &mut self.list[index as usize] {
-                pair.end_step(bodies, time);
+                pair.end_step(bodies, &self.presents[pair.present as usize], time);
             }
         }
     }
@@ -123,7 +140,7 @@ impl Pairs {
     fn take_out(&mut self, entry: Entry) -> Option<Pair> {
         let pair = self.list[entry.index as usize].take()?;
         self.free.push(entry.index);
-        for row in pair.rows.into_iter().filter(|&row| row != WORLD_ROW) {
+        for row in pair.rows().into_iter().filter(|&row| row != WORLD_ROW) {
             if let Ok(place) = self.find(row, entry.colliders) {
                 self.of_row[row].remove(place);
             }
@@ -143,9 +160,34 @@ impl Pairs {
         self.list.iter().flatten()
     }
 
-    /// The pairs that may have something to say about the present step, in no order.
-    pub fn changed(&self) -> impl Iterator<Item = &Pair> {
-        self.changed.iter().filter_map(|&index| self.list[index as usize].as_ref())
+    /// The sensors' pairs that have overlapped in the present step, in no order.
+    pub fn sensed(&self) -> impl Iterator<Item = &Pair> {
+        let changed = self.changed.iter().filter_map(|&index| self.list[index as usize].as_ref());
+        changed.filter(|pair| self.presents[pair.present as usize].is_sensed)
+    }
+
+    /// What happens to a pair in the present step.
+    #[inline]
+    pub fn now(&self, index: usize) -> &Present {
+        &self.presents[self[index].present as usize]
+    }
+
+    /// The same, to note what does.
+    pub fn now_mut(&mut self, index: usize) -> &mut Present {
+        let next = self.presents.len();
+        let pair = &mut self[index];
+        if pair.present == 0 {
+            pair.present = next as u32;
+            self.presents.push(Present::NOTHING);
+        }
+        let place = self[index].present as usize;
+        &mut self.presents[place]
+    }
+
+    /// A lower bound of the separation of a pair at `time`, m.
+    #[inline]
+    pub fn least_separation(&self, bodies: &Bodies, index: usize, time: f64) -> f64 {
+        self[index].least_separation(bodies, self.now(index), time)
     }
 
     /// Whether there is a pair of this index, and rests.
@@ -189,8 +231,9 @@ impl Pairs {
         self.of_row.swap_remove(row);
         self.watch.remove_row(row, last);
         for entry in self.of_row.get(row).into_iter().flatten() {
-            let pair = self.list[entry.index as usize].iter_mut();
-            pair.flat_map(|pair| &mut pair.rows).filter(|it| **it == last).for_each(|it| *it = row);
+            if let Some(pair) = &mut self.list[entry.index as usize] {
+                pair.move_row(last, row);
+            }
         }
     }
 }

@@ -33,14 +33,15 @@ mod validate;
 mod work;
 
 use crate::bodies::{Bodies, WORLD_ROW};
+use crate::collide::{ContactPoint, Manifold};
 use crate::impacts::time_of_impact::{Approach, Kept, RestLaw};
 use crate::math::DVec3;
-use crate::solver::bundle::field;
-use crate::solver::graph::Graph;
+use crate::solver::bundle::{POINTS, field};
+use crate::solver::graph::{ContactId, Graph};
 use crate::solver::lanes::Machine;
 use crate::solver::rows::Rows;
 use crate::step::motion::advance;
-use crate::step::pairs::{Pair, Pairs, Support};
+use crate::step::pairs::{Pair, Pairs};
 use crate::step::pool::Pool;
 use crate::step::profile::{self, Phase};
 use crowds::Crowds;
@@ -61,15 +62,49 @@ pub(crate) struct Rest {
     has_moved: Vec<bool>,
 }
 
-/// The pair that a contact belongs to.
-#[derive(Clone, Copy, Debug, Default)]
+/// The pair that a contact belongs to, and what touches.
+#[derive(Clone, Copy, Debug)]
 struct Owner {
-    pair: usize,
-    /// Whether it would bounce if it were struck faster.
-    bounces: bool,
+    pair: u32,
     /// Those of its bodies, and whether these have no other contact with each other.
     slots: [u32; 2],
     is_alone: bool,
+    /// Whether it would bounce if it were struck faster.
+    bounces: bool,
+    /// How many points there are, and the keys of the features that touch at each.
+    points: u8,
+    features: [[u32; 2]; POINTS],
+}
+
+impl Owner {
+    /// Of a contact that is no more.
+    const NOBODY: Owner = Owner {
+        pair: u32::MAX,
+        slots: [u32::MAX; 2],
+        is_alone: false,
+        bounces: false,
+        points: 0,
+        features: [[0; 2]; POINTS],
+    };
+
+    /// The owner of a contact with the points of this manifold.
+    fn with_points(mut self, manifold: &Manifold) -> Self {
+        self.points = manifold.points().len() as u8;
+        for (entry, point) in self.features.iter_mut().zip(manifold.points()) {
+            *entry = touching(point);
+        }
+        self
+    }
+
+    /// The keys of what touches at each point.
+    fn features(&self) -> &[[u32; 2]] {
+        &self.features[..self.points.into()]
+    }
+}
+
+/// The keys of the features that touch at a point.
+fn touching(point: &ContactPoint) -> [u32; 2] {
+    [point.feature_a.key(), point.feature_b.key()]
 }
 
 /// A stretch of a step.
@@ -110,7 +145,7 @@ impl Rest {
         parted.iter().for_each(|pair| self.drop_contacts(pair));
         self.resting.retain(|&index| pairs.rests(index));
         self.resting.sort_by_key(|&index| pairs[index].colliders);
-        self.crowds.find(bodies, self.resting.iter().map(|&index| pairs[index].rows));
+        self.crowds.find(bodies, self.resting.iter().map(|&index| pairs[index].rows()));
         for &index in &self.resting {
             if pairs[index].is_pressed != self.crowds.press(bodies, &pairs[index], law) {
                 pairs[index].is_outdated = true;
@@ -120,7 +155,7 @@ impl Rest {
         while goes_on {
             goes_on = false;
             for &index in &self.resting {
-                let rows = pairs[index].rows;
+                let rows = pairs[index].rows();
                 if rows.into_iter().any(|row| stirs(bodies, row)) {
                     goes_on |= rows.into_iter().filter(|&row| bodies.wake(row)).count() > 0;
                 }
@@ -130,16 +165,14 @@ impl Rest {
 
     /// Lets go of the contacts of a pair.
     pub fn drop_contacts(&mut self, pair: &Pair) {
-        for support in &pair.supports {
-            self.release(support);
-        }
+        pair.contacts.iter().for_each(|&contact| self.release(contact));
     }
 
-    fn release(&mut self, support: &Support) {
-        for row in self.graph.rows(support.contact) {
+    fn release(&mut self, contact: ContactId) {
+        for row in self.graph.rows(contact) {
             self.rows.let_go(row as usize);
         }
-        self.graph.remove(support.contact);
+        self.graph.remove(contact);
     }
 
     /// The body of `row` is no more; that of the last row, `last`, gets its row.
@@ -163,8 +196,8 @@ impl Rest {
         for number in 0..pairs.count_of_watched() {
             let index = pairs.watched(number);
             let pair = &pairs[index];
-            let is_near = !pair.rests && !pair.sensor && pair.least_separation(bodies, span.from) <= margin;
-            if !is_near || !pair.rows.into_iter().any(|row| stirs(bodies, row)) {
+            let is_near = !pair.rests && !pair.sensor && pairs.least_separation(bodies, index, span.from) <= margin;
+            if !is_near || !pair.rows().into_iter().any(|row| stirs(bodies, row)) {
                 continue;
             }
             let [least, _] = pair.least_facing(bodies, (span.from, span.from));
@@ -174,7 +207,7 @@ impl Rest {
             }
             let Some(approach) = Approach::of(bodies, pair.colliders, law) else { continue };
             let gap = approach.gap(span.from);
-            let fly = !pairs[index].rows.into_iter().any(|row| self.rows.is_held(row));
+            let fly = !pairs[index].rows().into_iter().any(|row| self.rows.is_held(row));
             let rests = gap.separation <= margin && approach.rests(pairs, span.from, fly);
             pairs[index].faced(bodies, gap, span.from);
             if rests {
@@ -186,7 +219,7 @@ impl Rest {
     /// Gives contacts to a pair at the start of `span`.
     pub fn take(&mut self, bodies: &mut Bodies, pairs: &mut Pairs, index: usize, at: (RestLaw, Span)) {
         let _phase = profile::phase(Phase::Renew);
-        for row in pairs[index].rows {
+        for row in pairs[index].rows() {
             bodies.wake(row);
             advance(bodies, row, at.1.from);
             if !self.rows.is_held(row) {
@@ -206,7 +239,7 @@ impl Rest {
         let pair = &mut pairs[index];
         self.drop_contacts(pair);
         pair.rests = false;
-        pair.supports.clear();
+        pair.contacts.clear();
         pairs.watch_over(index);
     }
 
@@ -236,8 +269,8 @@ impl Rest {
 
     /// Whether all points of a pair that rests are so near that the contacts have them all.
     pub fn is_closed(&self, pair: &Pair) -> bool {
-        pair.supports.iter().all(|support| {
-            let get = |field: usize| self.graph.get(support.contact, field);
+        pair.contacts.iter().all(|&contact| {
+            let get = |field: usize| self.graph.get(contact, field);
             get(field::WIDEST) <= get(field::HORIZON)
         })
     }
@@ -247,7 +280,7 @@ impl Rest {
     /// their impulses at the instant; and for what bounces without loss, or bears no load (balls that just touch in a row).
     pub fn left_speed(&self, bodies: &Bodies, pair: &Pair, law: RestLaw) -> f64 {
         let restitution = pair.surface.restitution;
-        let is_left = self.crowds.has_either(pair.rows)
+        let is_left = self.crowds.has_either(pair.rows())
             && (restitution == 0.0 || (restitution < 1.0 && self.bears_load(bodies, pair, law)));
         if is_left { PRESSED * grain(bodies, pair) / law.substep } else { 0.0 }
     }
@@ -259,11 +292,11 @@ impl Rest {
 
     /// Whether contacts have pushed a pair with more than a trace of a body's weight.
     fn bears_load(&self, bodies: &Bodies, pair: &Pair, law: RestLaw) -> bool {
-        let movable = pair.rows.map(|row| bodies.constants[row].inverse_mass).into_iter();
+        let movable = pair.rows().map(|row| bodies.constants[row].inverse_mass).into_iter();
         let weight = law.gravity.length() * law.substep / movable.fold(f64::MIN_POSITIVE, f64::max);
-        let pushed = pair.supports.iter().flat_map(|support| {
-            (0..support.features().len())
-                .map(|point| self.graph.get(support.contact, field::of_point(point, field::IMPULSE)))
+        let pushed = pair.contacts.iter().flat_map(|&contact| {
+            let points = 0..self.owners[contact.index()].points.into();
+            points.map(move |point| self.graph.get(contact, field::of_point(point, field::IMPULSE)))
         });
         pushed.map(f64::from).sum::<f64>() > TRACE * weight
     }
@@ -280,19 +313,19 @@ impl Rest {
     pub fn is_driven(&self, bodies: &Bodies, pair: &Pair, law: RestLaw, span: Span) -> bool {
         let left = span.until - span.from;
         let Kept { horizon, pressed, .. } = self.kept(bodies, pair, (law, span.from));
-        let motion = pair.rows.map(|row| {
+        let motion = pair.rows().map(|row| {
             let state = &bodies.states[row];
             (state.velocity, bodies.constants[row].angular_velocity(state))
         });
-        pair.supports.iter().any(|support| {
-            let get = |field: usize| f64::from(self.graph.get(support.contact, field));
+        pair.contacts.iter().any(|&contact| {
+            let get = |field: usize| f64::from(self.graph.get(contact, field));
             let axis = |field: usize| DVec3::new(get(field), get(field + 1), get(field + 2));
             let (normal, first) = (axis(field::NORMAL), axis(field::TANGENT));
             let second = normal.cross(first);
             let inward = |v: DVec3| DVec3::new(v.dot(first), v.dot(second), v.dot(normal));
             let relative = (motion[1].0 - motion[0].0).dot(normal);
             let (spin_a, spin_b) = (inward(motion[0].1), inward(motion[1].1));
-            (0..support.features().len()).any(|point| {
+            (0..self.owners[contact.index()].points.into()).any(|point| {
                 let at = |line: usize| field::of_point(point, line);
                 let (arm_a, arm_b) = (axis(at(field::ARM_A)), axis(at(field::ARM_B)));
                 let speed = relative + (spin_b.x * arm_b.y - spin_b.y * arm_b.x)
@@ -313,7 +346,7 @@ const PRESSED: f64 = 0.02;
 const TRACE: f64 = 0.01;
 
 fn grain(bodies: &Bodies, pair: &Pair) -> f64 {
-    bodies.grains[pair.rows[0]].min(bodies.grains[pair.rows[1]])
+    bodies.grains[pair.rows()[0]].min(bodies.grains[pair.rows()[1]])
 }
 
 /// Gap (m) up to which the contacts of a resting pair see to a point: what does not bounce and comes no faster than contacts can

@@ -24,8 +24,8 @@ impl Graph {
             assert_eq!(color.bundles.len(), lanes.div_ceil(LANES), "bundles of colour {number}");
             let mut taken = BTreeSet::new();
             for (lane, &id) in color.contacts.iter().enumerate() {
-                let place = self.places[id as usize].expect("a lane's contact has a place");
-                assert_eq!((place.color, place.lane), (number, lane), "place of contact {id}");
+                let place = self.places[id as usize].get();
+                assert_eq!(place, Some((number, lane)), "place of contact {id}");
                 assert!(seen.insert(id), "contact {id} has two lanes");
                 let bundle = &color.bundles[lane / LANES];
                 let rows = [bundle.a[lane % LANES], bundle.b[lane % LANES]];
@@ -51,7 +51,7 @@ impl Graph {
                 assert!((bundle.points..POINTS).all(|point| !has(point)), "a point is not counted");
             }
         }
-        let placed = (0..self.places.len() as u32).filter(|&id| self.places[id as usize].is_some());
+        let placed = (0..self.places.len() as u32).filter(|&id| self.places[id as usize].get().is_some());
         assert_eq!(placed.collect::<BTreeSet<_>>(), seen, "places without a lane");
         let free: BTreeSet<u32> = self.free.iter().copied().collect();
         assert_eq!(free.len(), self.free.len(), "an id is free twice");

@@ -1,14 +1,14 @@
-//! What contacts exert, in double precision: one impulse and moment for each, equal and opposite on its two bodies.
+//! What contacts exert: one impulse and moment for each, equal and opposite on its two bodies.
 //!
 //! The solver's bodies have arms of their own, in single precision and of the start of the substep. So that these do not make angular
 //! momentum out of nothing, whoever gives an impulse to two bodies does it at one place in the world: seen from the *mean
-//! centre* between both, as the arms are.
+//! centre* between both, as the arms are. An impulse is found in single precision, and given in double: both bodies get the same.
 
 use super::passes::GRAIN;
 use super::{Color, ContactId, Graph};
 use crate::math::DVec3;
 use crate::solver::bundle::{Bundle, POINTS, field};
-use crate::solver::contact::{line, vector};
+use crate::solver::contact::{Frame, line, vector};
 use crate::solver::kernels::bring_next;
 use crate::solver::lanes::{Kernel, LANES, Lanes, Line, Row, Vector, WRITABLE};
 
@@ -16,29 +16,55 @@ use crate::solver::lanes::{Kernel, LANES, Lanes, Line, Row, Vector, WRITABLE};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Wrench {
     pub contact: ContactId,
-    pub rows: [usize; 2],
+    rows: [u32; 2],
     /// The mean centre is this share of the way from the centre of mass of the first body to that of the second.
-    pub share: f64,
-    /// Impulse along the normal (N·s), and its moment about the mean centre (N·m·s).
-    pub normal: [DVec3; 2],
-    /// The same of friction and twist.
-    pub across: [DVec3; 2],
+    share: f32,
+    /// In the world: along the normal, impulse (N·s) and its moment about the mean centre (N·m·s); then of friction and twist.
+    exerts: [[f32; 3]; PARTS],
 }
 
 impl Wrench {
+    /// The rows of the two bodies.
+    #[inline]
+    pub fn rows(&self) -> [usize; 2] {
+        self.rows.map(|row| row as usize)
+    }
+
+    /// How far the mean centre is on the way from the first body's centre of mass to the second's, 0 to 1.
+    pub fn share(&self) -> f64 {
+        self.share.into()
+    }
+
+    #[inline]
+    fn part(&self, part: usize) -> DVec3 {
+        DVec3::from(self.exerts[part].map(f64::from))
+    }
+
+    /// Impulse along the normal (N·s), and its moment about the mean centre (N·m·s).
+    #[inline]
+    pub fn normal(&self) -> [DVec3; 2] {
+        [self.part(PRESSURE), self.part(PRESSURE_MOMENT)]
+    }
+
+    /// The same of friction and twist.
+    #[inline]
+    pub fn across(&self) -> [DVec3; 2] {
+        [self.part(FRICTION), self.part(FRICTION_MOMENT)]
+    }
+
     /// The whole impulse.
     pub fn impulse(&self) -> DVec3 {
-        self.normal[0] + self.across[0]
+        self.part(PRESSURE) + self.part(FRICTION)
     }
 
     /// The whole moment about the mean centre.
     pub fn moment(&self) -> DVec3 {
-        self.normal[1] + self.across[1]
+        self.part(PRESSURE_MOMENT) + self.part(FRICTION_MOMENT)
     }
 
     /// From the centre of mass of one side to the mean centre.
     pub fn offset(&self, side: usize, [a, b]: [DVec3; 2]) -> DVec3 {
-        if side == 0 { (b - a) * self.share } else { (a - b) * (1.0 - self.share) }
+        if side == 0 { (b - a) * self.share() } else { (a - b) * (1.0 - self.share()) }
     }
 
     /// The angular impulse about the body's own centre of mass that `[impulse, moment]` gives to the body of one side, with the
@@ -49,12 +75,15 @@ impl Wrench {
     }
 }
 
-/// Lines of what a bundle exerts, in the contact frames: impulse and moment of all normals, of friction and twist.
+/// The vectors of what a contact exerts.
 const PRESSURE: usize = 0;
 const PRESSURE_MOMENT: usize = 1;
-const FRICTION: usize = 3;
-const FRICTION_MOMENT: usize = 5;
-const SUMS: usize = 8;
+const FRICTION: usize = 2;
+const FRICTION_MOMENT: usize = 3;
+const PARTS: usize = 4;
+
+/// What the lanes of a bundle exert: each vector's components in the world.
+type Sums = [[Line; 3]; PARTS];
 
 /// From the mean centre to where both arms end.
 #[inline(always)]
@@ -65,10 +94,11 @@ fn mean<L: Lanes>(bundle: &Bundle, [arm_a, arm_b]: [usize; 2], (share, part): (L
 
 /// Adds up what each lane exerts on its second body, about the mean centre.
 #[inline(always)]
-fn sum_up<L: Lanes>(bundle: &Bundle) -> [Line; SUMS] {
-    let mut sums = [Line::ZERO; SUMS];
+fn sum_up<L: Lanes>(bundle: &Bundle) -> Sums {
+    let mut sums = [[Line::ZERO; 3]; PARTS];
     let zero = L::splat(0.0);
     for part in 0..LANES / L::WIDTH {
+        let frame = Frame::<L>::load(bundle, part);
         let share = line::<L>(bundle, field::SHARE, part);
         let mut pressure = Vector::new(zero, zero, zero);
         for point in 0..bundle.points.min(POINTS) {
@@ -77,19 +107,25 @@ fn sum_up<L: Lanes>(bundle: &Bundle) -> [Line; SUMS] {
             let arm = mean(bundle, [at(field::ARM_A), at(field::ARM_B)], (share, part));
             pressure = pressure + Vector::new(arm.y * impulse, -(arm.x * impulse), impulse);
         }
-        pressure.z.store(&mut sums[PRESSURE], part);
-        pressure.x.store(&mut sums[PRESSURE_MOMENT], part);
-        pressure.y.store(&mut sums[PRESSURE_MOMENT + 1], part);
-
-        let (x, y) = (line::<L>(bundle, field::FRICTION, part), line::<L>(bundle, field::FRICTION + 1, part));
+        let friction = Vector::new(
+            line::<L>(bundle, field::FRICTION, part),
+            line::<L>(bundle, field::FRICTION + 1, part),
+            zero,
+        );
         let twist = Vector::new(zero, zero, line(bundle, field::TWIST, part));
         let arm = mean(bundle, [field::FRICTION_ARM_A, field::FRICTION_ARM_B], (share, part));
-        let moment = arm.cross(Vector::new(x, y, zero)) + twist;
-        x.store(&mut sums[FRICTION], part);
-        y.store(&mut sums[FRICTION + 1], part);
-        moment.x.store(&mut sums[FRICTION_MOMENT], part);
-        moment.y.store(&mut sums[FRICTION_MOMENT + 1], part);
-        moment.z.store(&mut sums[FRICTION_MOMENT + 2], part);
+        let parts = [
+            Vector::new(zero, zero, pressure.z),
+            Vector::new(pressure.x, pressure.y, zero),
+            friction,
+            arm.cross(friction) + twist,
+        ];
+        for (sum, vector) in sums.iter_mut().zip(parts) {
+            let Vector { x, y, z } = frame.outward(vector);
+            for (line, component) in sum.iter_mut().zip([x, y, z]) {
+                component.store(line, part);
+            }
+        }
     }
     sums
 }
@@ -138,44 +174,14 @@ impl Graph {
 }
 
 /// Adds what a bundle's contacts exert on bodies that can be moved.
-fn add_wrenches(
-    (bundle, sums): (&Bundle, &[Line; SUMS]),
-    contacts: &[u32],
-    rows: &[Row],
-    found: &mut Vec<Wrench>,
-) {
+fn add_wrenches((bundle, sums): (&Bundle, &Sums), contacts: &[u32], rows: &[Row], found: &mut Vec<Wrench>) {
     for (lane, &contact) in contacts.iter().enumerate() {
-        let sides = [bundle.a[lane] as usize, bundle.b[lane] as usize];
-        let sum = sums.map(|line| line.0[lane]);
-        let exerts = sum.iter().any(|&value| value != 0.0);
-        if exerts && sides.iter().any(|&row| rows[row].0[WRITABLE] != 0.0) {
-            found.push(wrench(bundle, lane, (ContactId(contact), sides), &sum.map(f64::from)));
+        let sides = [bundle.a[lane], bundle.b[lane]];
+        let exerts = sums.each_ref().map(|sum| sum.each_ref().map(|line| line.0[lane]));
+        let does = exerts.as_flattened().iter().any(|&value| value != 0.0);
+        if does && sides.iter().any(|&row| rows[row as usize].0[WRITABLE] != 0.0) {
+            let share = bundle.get(lane, field::SHARE);
+            found.push(Wrench { contact: ContactId(contact), rows: sides, share, exerts });
         }
-    }
-}
-
-fn wrench(
-    bundle: &Bundle,
-    lane: usize,
-    (contact, rows): (ContactId, [usize; 2]),
-    sum: &[f64; SUMS],
-) -> Wrench {
-    let axis = |line: usize| {
-        let get = |index: usize| f64::from(bundle.get(lane, line + index));
-        DVec3::new(get(0), get(1), get(2))
-    };
-    let (normal, first) = (axis(field::NORMAL), axis(field::TANGENT));
-    let second = normal.cross(first);
-    Wrench {
-        contact,
-        rows,
-        share: f64::from(bundle.get(lane, field::SHARE)),
-        normal: [normal * sum[PRESSURE], first * sum[PRESSURE_MOMENT] + second * sum[PRESSURE_MOMENT + 1]],
-        across: [
-            first * sum[FRICTION] + second * sum[FRICTION + 1],
-            first * sum[FRICTION_MOMENT]
-                + second * sum[FRICTION_MOMENT + 1]
-                + normal * sum[FRICTION_MOMENT + 2],
-        ],
     }
 }

@@ -3,27 +3,27 @@
 mod facing;
 
 use crate::bodies::{Bodies, ColliderRow};
-use crate::collide::{Gap, Manifold};
+use crate::collide::Gap;
 use crate::impacts::time_of_impact::tolerance;
 use crate::material::Surface;
-use crate::report::Feature;
 use crate::solver::graph::ContactId;
 use crate::step::broad_phase::ColliderPair;
 use facing::Facing;
+use smallvec::SmallVec;
 
 /// Two colliders whose boxes overlap.
 pub(crate) struct Pair {
     pub colliders: ColliderPair,
-    pub rows: [usize; 2],
+    rows: [u32; 2],
     /// What turns, m: how far a turn by one radian can take a point of each collider.
     pub spin_reach: [f64; 2],
     /// Separation up to which the surfaces count as touching, m.
     pub tolerance: f64,
     pub surface: Surface,
     pub sensor: bool,
-    /// Whether the pair rests: it has supports then.
+    /// Whether the pair rests: it has contacts then.
     pub rests: bool,
-    pub supports: Vec<Support>,
+    pub contacts: SmallVec<[ContactId; 4]>,
     /// Whether these see to all of its points, so that nobody has to ask when one strikes; and whether that is no longer so, or should
     /// be from now on.
     pub is_pressed: bool,
@@ -32,34 +32,10 @@ pub(crate) struct Pair {
     /// their present [`Pair::path`] apart.
     clearance: f64,
     facing: Facing,
-    /// What happens to it in this step.
-    pub now: Present,
-    /// Whether `now` may say something.
+    /// Where [`Pairs`](super::Pairs) keeps what happens to it in this step; 0 as long as nothing does.
+    pub(super) present: u32,
     pub(super) is_changed: bool,
     pub(super) is_watched: bool,
-}
-
-/// A manifold of a pair that rests.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Support {
-    pub contact: ContactId,
-    features: [(Feature, Feature); 4],
-    count: usize,
-}
-
-impl Support {
-    pub fn new(contact: ContactId, manifold: &Manifold) -> Self {
-        let mut features = [(Feature::Surface, Feature::Surface); 4];
-        for (entry, point) in features.iter_mut().zip(manifold.points()) {
-            *entry = (point.feature_a, point.feature_b);
-        }
-        Self { contact, features, count: manifold.points().len() }
-    }
-
-    /// What touches at each point.
-    pub fn features(&self) -> &[(Feature, Feature)] {
-        &self.features[..self.count]
-    }
 }
 
 /// What happens to a pair in the present step.
@@ -96,6 +72,13 @@ impl Present {
         courses: [0; 2],
         patience: 1e-9,
     };
+
+    /// How far apart the two of `pair` stay, and will be at the end, as far as they have been asked, m.
+    fn foreseen(&self, bodies: &Bodies, pair: &Pair) -> Option<[f64; 2]> {
+        let holds = self.apart[0] > f64::NEG_INFINITY
+            && self.courses == pair.rows().map(|row| bodies.courses[row]);
+        holds.then_some(self.apart)
+    }
 }
 
 impl Pair {
@@ -103,26 +86,37 @@ impl Pair {
         let (a, b) = (bodies.collider(colliders.0)?, bodies.collider(colliders.1)?);
         Some(Self {
             colliders,
-            rows: [a.row, b.row],
+            rows: [a.row, b.row].map(|row| row as u32),
             spin_reach: [a.spin_reach, b.spin_reach],
             tolerance: tolerance(a, b),
             surface: Surface::between(&a.material, &b.material),
             sensor: a.sensor || b.sensor,
             rests: false,
-            supports: Vec::new(),
+            contacts: SmallVec::new(),
             is_pressed: false,
             is_outdated: false,
             clearance: clearance_of_centers(bodies, a, b),
             facing: Facing::UNKNOWN,
-            now: Present::NOTHING,
+            present: 0,
             is_changed: false,
             is_watched: false,
         })
     }
 
+    /// The rows of its bodies.
+    #[inline]
+    pub fn rows(&self) -> [usize; 2] {
+        self.rows.map(|row| row as usize)
+    }
+
+    /// The body of row `last` has got another row.
+    pub(super) fn move_row(&mut self, last: usize, row: usize) {
+        self.rows.iter_mut().filter(|it| **it as usize == last).for_each(|it| *it = row as u32);
+    }
+
     /// Forgets what has happened to it in the step before.
     pub(super) fn begin_step(&mut self) {
-        self.now = Present::NOTHING;
+        self.present = 0;
         self.is_changed = false;
     }
 
@@ -130,17 +124,17 @@ impl Pair {
     #[inline]
     fn path(&self, bodies: &Bodies, time: f64) -> f64 {
         let of = |side: usize| {
-            let (linear, angular) = bodies.way(self.rows[side], time);
+            let (linear, angular) = bodies.way(self.rows[side] as usize, time);
             linear + angular * self.spin_reach[side]
         };
         of(0) + of(1)
     }
 
-    /// A lower bound of the separation at `time`, m.
+    /// A lower bound of the separation at `time`, m, given what happens to it now.
     #[inline]
-    pub fn least_separation(&self, bodies: &Bodies, time: f64) -> f64 {
-        match self.foreseen(bodies) {
-            Some([least, _]) if time <= self.now.asked_until => least,
+    pub(super) fn least_separation(&self, bodies: &Bodies, now: &Present, time: f64) -> f64 {
+        match now.foreseen(bodies, self) {
+            Some([least, _]) if time <= now.asked_until => least,
             _ => self.clearance - self.path(bodies, time),
         }
     }
@@ -151,17 +145,10 @@ impl Pair {
         self.facing.least(self, bodies, span)
     }
 
-    /// How far apart the two stay, and will be at the end, as far as they have been asked, m.
-    fn foreseen(&self, bodies: &Bodies) -> Option<[f64; 2]> {
-        let holds = self.now.apart[0] > f64::NEG_INFINITY
-            && self.now.courses == self.rows.map(|row| bodies.courses[row]);
-        holds.then_some(self.now.apart)
-    }
-
     /// Ends a step of `time` seconds, with all bodies on their last courses.
-    pub(super) fn end_step(&mut self, bodies: &Bodies, time: f64) {
-        if self.now.asked_until == time
-            && let Some([_, end]) = self.foreseen(bodies)
+    pub(super) fn end_step(&mut self, bodies: &Bodies, now: &Present, time: f64) {
+        if now.asked_until == time
+            && let Some([_, end]) = now.foreseen(bodies, self)
         {
             self.measured(bodies, end, time);
         }

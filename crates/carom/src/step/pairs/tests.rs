@@ -21,12 +21,12 @@ impl Pairs {
             assert!(entries.is_sorted_by(|a, b| a.colliders < b.colliders), "pairs of {row} in order");
             for entry in entries {
                 let pair = self.list[entry.index as usize].as_ref().expect("a pair");
-                assert!(pair.colliders == entry.colliders && pair.rows.contains(&row), "{entry:?} of {row}");
+                assert!(pair.colliders == entry.colliders && pair.rows().contains(&row), "{entry:?} of {row}");
                 listed[entry.index as usize] += 1;
             }
         }
         for (index, pair) in self.list.iter().enumerate() {
-            let rows = pair.iter().flat_map(|pair| pair.rows).filter(|&row| row != WORLD_ROW).count();
+            let rows = pair.iter().flat_map(|pair| pair.rows()).filter(|&row| row != WORLD_ROW).count();
             assert_eq!(listed[index], rows, "listed by its bodies");
             let Some(pair) = pair else { continue };
             let entry = Entry { colliders: pair.colliders, index: index as u32 };

@@ -12,6 +12,9 @@ use crate::step::profile::{self, Phase};
 const SHARE: f64 = 0.02;
 const STEPS: f64 = 1.0;
 
+/// Room is kept for so many that join at once.
+const ROOM: usize = 4096;
+
 /// Limits, and the pairs that could meet within them.
 #[derive(Default)]
 pub(super) struct Watch {
@@ -65,7 +68,7 @@ impl Pairs {
             let Some(pair) = there.filter(|it| it.colliders == entry.colliders && it.is_watched) else {
                 return false;
             };
-            pair.is_watched = pair.needs_watching(pair.rows.map(|row| limits[row]), margin);
+            pair.is_watched = pair.needs_watching(pair.rows().map(|row| limits[row]), margin);
             pair.is_watched
         });
     }
@@ -86,7 +89,7 @@ impl Pairs {
             for number in 0..self.of_row[row].len() {
                 let entry = self.of_row[row][number];
                 let Some(pair) = &self.list[entry.index as usize] else { continue };
-                let limits = pair.rows.map(|row| self.watch.limits[row]);
+                let limits = pair.rows().map(|row| self.watch.limits[row]);
                 if pair.needs_watching(limits, self.watch.margin) {
                     self.watch(entry);
                 }
@@ -126,6 +129,7 @@ impl Pairs {
         }
         watch.joining.sort_unstable();
         merge(&mut watch.list, &mut watch.joining);
+        watch.joining.shrink_to(ROOM);
         // A pair that was taken out and came back before anybody looked is in it twice.
         watch.list.dedup();
     }

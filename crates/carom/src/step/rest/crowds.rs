@@ -65,7 +65,7 @@ impl Crowds {
     /// Whether contacts see to all points of a pair that rests.
     pub fn press(&self, bodies: &Bodies, pair: &Pair, law: RestLaw) -> bool {
         pair.surface.restitution == 0.0
-            && self.has_either(pair.rows)
+            && self.has_either(pair.rows())
             && approach(bodies, pair, law.substep) <= PRESSED * grain(bodies, pair)
     }
 }
@@ -77,10 +77,10 @@ pub(super) fn reach_in_crowd(bodies: &Bodies, pair: &Pair, left: f64) -> f64 {
 
 /// How much nearer to each other the points of two bodies can come within `time` (s) on their present paths, m.
 fn approach(bodies: &Bodies, pair: &Pair, time: f64) -> f64 {
-    let [a, b] = pair.rows;
+    let [a, b] = pair.rows();
     let velocity = bodies.states[b].velocity - bodies.states[a].velocity;
     let acceleration = bodies.influences[b].acceleration - bodies.influences[a].acceleration;
-    let turn = |side: usize| bodies.paces[pair.rows[side]].1 * pair.spin_reach[side];
+    let turn = |side: usize| bodies.paces[pair.rows()[side]].1 * pair.spin_reach[side];
     time * (velocity.length() + turn(0) + turn(1) + 0.5 * time * acceleration.length())
 }
 
@@ -133,12 +133,10 @@ mod tests {
                     let pushes = |point: usize, contact| {
                         rest.graph.get(contact, field::of_point(point, field::IMPULSE)) > 0.0
                     };
-                    let is_pressed = pair
-                        .supports
-                        .iter()
-                        .any(|support| (0..4).any(|point| pushes(point, support.contact)));
+                    let is_pressed =
+                        pair.contacts.iter().any(|&contact| (0..4).any(|point| pushes(point, contact)));
                     let is_slow =
-                        pair.rows.into_iter().all(|row| bodies.states[row].velocity.length() < 1e-3);
+                        pair.rows().into_iter().all(|row| bodies.states[row].velocity.length() < 1e-3);
                     if is_pressed && is_slow {
                         let approach = Approach::of(bodies, pair.colliders, law).expect("both are there");
                         let gap = approach.separation(STEP);
@@ -168,15 +166,15 @@ mod tests {
         for step in 0..40 {
             world.step_validated(STEP);
             let (rest, pairs) = (&world.rest, &world.pairs);
-            let lowest = rest.resting.iter().map(|&index| &pairs[index]).find(|pair| pair.rows[0] == 0);
-            let supports = &lowest.expect("it stands on the ground").supports;
-            let now: Vec<[f32; 3]> = supports
+            let lowest = rest.resting.iter().map(|&index| &pairs[index]).find(|pair| pair.rows()[0] == 0);
+            let contacts = &lowest.expect("it stands on the ground").contacts;
+            let now: Vec<[f32; 3]> = contacts
                 .iter()
-                .map(|support| [0, 1, 2].map(|axis| rest.graph.get(support.contact, field::DRIFTED + axis)))
+                .map(|&contact| [0, 1, 2].map(|axis| rest.graph.get(contact, field::DRIFTED + axis)))
                 .collect();
             if step >= 20 {
-                assert!(supports.iter().any(|support| rest.graph.has_left(support.contact)), "step {step}");
-                assert!(!supports.iter().all(|support| rest.graph.has_left(support.contact)), "step {step}");
+                assert!(contacts.iter().any(|&contact| rest.graph.has_left(contact)), "step {step}");
+                assert!(!contacts.iter().all(|&contact| rest.graph.has_left(contact)), "step {step}");
                 looks += usize::from(now != last);
             }
             last = now;

@@ -56,7 +56,7 @@ impl Rest {
     pub(super) fn give(&mut self, bodies: &mut Bodies, work: &mut Work, (law, span): (RestLaw, Span)) {
         let substep = span.until - span.from;
         for wrench in &work.wrenches {
-            let [a, b] = wrench.rows;
+            let [a, b] = wrench.rows();
             work.impulses[a] -= wrench.impulse();
             work.impulses[b] += wrench.impulse();
         }
@@ -99,8 +99,8 @@ impl Rest {
     fn turn(&self, bodies: &mut Bodies, work: &mut Work) {
         for wrench in &work.wrenches {
             let push = [wrench.impulse(), wrench.moment()];
-            let centers = wrench.rows.map(|row| work.centers[row]);
-            for (side, row) in wrench.rows.into_iter().enumerate() {
+            let centers = wrench.rows().map(|row| work.centers[row]);
+            for (side, row) in wrench.rows().into_iter().enumerate() {
                 work.turns[row] += wrench.turn(side, push, centers);
             }
             if let Some(journal) = &mut bodies.journal {

@@ -96,7 +96,7 @@ impl Rest {
         self.graph.in_whole_islands(&mut work.is_steady);
         self.graph.wrenches(&self.rows.velocities, &mut work.wrenches);
         for wrench in &work.wrenches {
-            wrench.rows.into_iter().for_each(|row| work.is_pushed[row] = true);
+            wrench.rows().into_iter().for_each(|row| work.is_pushed[row] = true);
         }
         self.give(bodies, work, (law, span));
     }
@@ -116,7 +116,7 @@ impl Rest {
         for &index in &self.resting {
             let pair = &pairs[index];
             let rubs = pair.surface.static_friction > 0.0;
-            pair.rows.into_iter().for_each(|row| is_rough[row] |= rubs);
+            pair.rows().into_iter().for_each(|row| is_rough[row] |= rubs);
         }
     }
 

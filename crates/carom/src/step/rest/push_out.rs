@@ -47,11 +47,11 @@ impl Rest {
         let moves = &mut work.moves;
         fill(moves, bodies.states.len(), DVec3::ZERO);
         for wrench in &work.wrenches {
-            let [push, _] = wrench.normal;
-            let inverse_masses = wrench.rows.map(|row| self.inverse_mass(bodies, row));
+            let [push, _] = wrench.normal();
+            let inverse_masses = wrench.rows().map(|row| self.inverse_mass(bodies, row));
             let [inverse_a, inverse_b] = inverse_masses;
-            moves[wrench.rows[0]] -= push * inverse_a;
-            moves[wrench.rows[1]] += push * inverse_b;
+            moves[wrench.rows()[0]] -= push * inverse_a;
+            moves[wrench.rows()[1]] += push * inverse_b;
             shifted(bodies, wrench, inverse_masses);
         }
         for &row in &work.rows {

@@ -4,13 +4,12 @@
 //! wins by a hair, another four of eight points are kept. What pressed goes on pressing all the same: the new
 //! points start with impulses that push and turn both bodies as the old ones did.
 
-use super::Rest;
+use super::{Rest, touching};
 use crate::collide::{ContactPoint, Manifold};
 use crate::math::{DMat3, DVec3, any_tangent};
-use crate::report::Feature;
 use crate::solver::bundle::{POINTS, field};
+use crate::solver::graph::ContactId;
 use crate::solver::prepare::{Remembered, middle};
-use crate::step::pairs::Support;
 
 /// A manifold follows upon one whose normal makes an angle with its own that has at least this cosine.
 const ALIKE: f64 = 0.9;
@@ -35,16 +34,17 @@ pub(super) struct Past {
 
 #[derive(Clone, Copy)]
 struct PastPoint {
-    features: (Feature, Feature),
+    /// Keys of what touched.
+    features: [u32; 2],
     place: DVec3,
     /// N·s
     pressure: f64,
 }
 
 impl Rest {
-    /// What a support exerts on bodies whose centres are at `centers`.
-    pub(super) fn past(&self, support: &Support, centers: [DVec3; 2]) -> Past {
-        let read = |field: usize| f64::from(self.graph.get(support.contact, field));
+    /// What a contact exerts on bodies whose centres are at `centers`.
+    pub(super) fn past(&self, contact: ContactId, centers: [DVec3; 2]) -> Past {
+        let read = |field: usize| f64::from(self.graph.get(contact, field));
         let vector = |field: usize| DVec3::new(read(field), read(field + 1), read(field + 2));
         let (normal, first) = (vector(field::NORMAL), vector(field::TANGENT));
         let second = normal.cross(first);
@@ -54,8 +54,8 @@ impl Rest {
             0.5 * (centers[0] + outward(vector(arm_a)) + centers[1] + outward(vector(arm_b)))
         };
         let mut points = [PastPoint::NONE; POINTS];
-        let count = support.features().len();
-        for (index, (point, &features)) in points.iter_mut().zip(support.features()).enumerate() {
+        let touched = self.owners[contact.index()].features();
+        for (index, (point, &features)) in points.iter_mut().zip(touched).enumerate() {
             let at = |line: usize| field::of_point(index, line);
             let place = place(at(field::ARM_A), at(field::ARM_B));
             *point = PastPoint { features, place, pressure: read(at(field::IMPULSE)) };
@@ -63,7 +63,7 @@ impl Rest {
         Past {
             normal,
             points,
-            count,
+            count: touched.len(),
             middle: place(field::FRICTION_ARM_A, field::FRICTION_ARM_B),
             friction: outward(DVec3::new(read(field::FRICTION), read(field::FRICTION + 1), 0.0)),
             twist: read(field::TWIST),
@@ -105,12 +105,11 @@ impl Past {
 
 impl PastPoint {
     /// Fills the places that hold no point.
-    const NONE: PastPoint =
-        PastPoint { features: (Feature::Surface, Feature::Surface), place: DVec3::ZERO, pressure: 0.0 };
+    const NONE: PastPoint = PastPoint { features: [0; 2], place: DVec3::ZERO, pressure: 0.0 };
 
     /// Whether it was the same features that touched.
     fn is_of(&self, point: &ContactPoint) -> bool {
-        self.features == (point.feature_a, point.feature_b)
+        self.features == touching(point)
     }
 }
 

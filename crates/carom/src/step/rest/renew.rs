@@ -13,8 +13,9 @@ use crate::collide::Manifold;
 use crate::impacts::time_of_impact::{Approach, RestLaw};
 use crate::math::{DMat3, DVec3};
 use crate::solver::bundle::{Lane, field};
+use crate::solver::graph::ContactId;
 use crate::solver::prepare::{Remembered, Side, Terms, lane};
-use crate::step::pairs::{Pair, Pairs, Support};
+use crate::step::pairs::{Pair, Pairs};
 use crate::step::profile::{self, Phase};
 
 /// Motion of a body, as a share of its smallest collider's reach or in radians, after which its contacts are renewed: of one that lies or
@@ -28,6 +29,9 @@ const TOGETHER: f64 = 0.5;
 
 /// So many pairs looked at are worth sharing out.
 const LOOKS: usize = 16;
+
+/// So many are looked at before their contacts are put in place: what waits for that has to be kept meanwhile.
+const AT_ONCE: usize = 512;
 
 /// What a pair's contacts are to be.
 struct View {
@@ -63,7 +67,7 @@ impl Rest {
             margin + reach_in_crowd(bodies, pair, law.step - span.from)
         } else {
             let way = |side: usize| {
-                let (linear, angular) = bodies.paces[pair.rows[side]];
+                let (linear, angular) = bodies.paces[pair.rows()[side]];
                 linear + angular * pair.spin_reach[side]
             };
             let ahead = ((way(0) + way(1)) * law.substep).min(0.2 * grain);
@@ -75,7 +79,7 @@ impl Rest {
 
         let terms = Terms { surface: pair.surface, margin, horizon: horizon(pair, grain, law), is_pressed };
         let centers = [a, b].map(|collider| bodies.center_pose(collider).position);
-        let past: Vec<_> = pair.supports.iter().map(|support| self.past(support, centers)).collect();
+        let past: Vec<_> = pair.contacts.iter().map(|&contact| self.past(contact, centers)).collect();
         let remembered = remembered(&past, &manifolds, margin);
         let sides = [a, b].map(|collider| self.side(bodies, collider));
         let poses = [a, b].map(|collider| bodies.center_pose(collider).then_local(&collider.local));
@@ -112,31 +116,32 @@ impl Rest {
     /// Puts the contacts of a pair in the place of its old ones.
     fn adopt_view(&mut self, bodies: &Bodies, pairs: &mut Pairs, index: usize, view: &View) {
         let pair = &mut pairs[index];
-        let old = std::mem::take(&mut pair.supports);
-        let rows = pair.rows.map(|row| row as u32);
-        let movable = pair.rows.map(|row| bodies.constants[row].is_movable());
+        let rows = pair.rows().map(|row| row as u32);
+        let movable = pair.rows().map(|row| bodies.constants[row].is_movable());
         (pair.is_pressed, pair.is_outdated) = (view.is_pressed, false);
         let owner = owner(bodies, pair, index, view.contacts.len());
-        pair.supports.reserve_exact(view.contacts.len());
         for (number, (manifold, lane)) in view.contacts.iter().enumerate() {
-            let contact = match old.get(number) {
-                Some(support) => {
-                    self.graph.write(support.contact, lane);
-                    support.contact
+            let contact = match pair.contacts.get(number) {
+                Some(&contact) => {
+                    self.graph.write(contact, lane);
+                    contact
                 }
                 None => {
-                    pair.rows.into_iter().for_each(|row| self.rows.hold(row));
-                    self.graph.insert(rows, movable, lane)
+                    pair.rows().into_iter().for_each(|row| self.rows.hold(row));
+                    let contact = self.graph.insert(rows, movable, lane);
+                    pair.contacts.push(contact);
+                    contact
                 }
             };
-            self.owners.resize(self.owners.len().max(contact.index() + 1), Owner::default());
-            self.owners[contact.index()] = owner;
-            pair.supports.push(Support::new(contact, manifold));
+            if contact.index() >= self.owners.len() {
+                self.owners.resize(contact.index() + 1, Owner::NOBODY);
+            }
+            self.owners[contact.index()] = owner.with_points(manifold);
         }
-        for support in old.iter().skip(view.contacts.len()) {
-            self.release(support);
+        for contact in pair.contacts.drain(view.contacts.len()..) {
+            self.release(contact);
         }
-        pair.rests = !pair.supports.is_empty();
+        pair.rests = !pair.contacts.is_empty();
         pairs.watch_over(index);
     }
 
@@ -162,22 +167,22 @@ impl Rest {
         }
         let stale = |&index: &usize| {
             let pair = &pairs[index];
-            pair.rests && (pair.is_outdated || pair.rows.into_iter().any(|row| has_moved[row]))
+            pair.rests && (pair.is_outdated || pair.rows().into_iter().any(|row| has_moved[row]))
         };
         let stale: Vec<usize> = self.resting.iter().copied().filter(stale).collect();
         self.has_moved = has_moved;
         self.renew_all(bodies, pairs, stale, at);
         let noted = self.graph.measure(&self.rows.drifts);
         let mut noted: Vec<usize> =
-            noted.into_iter().map(|contact| self.owners[contact.index()].pair).collect();
+            noted.into_iter().map(|contact| self.owners[contact.index()].pair as usize).collect();
         noted.sort_by_key(|&index| pairs[index].colliders);
         noted.dedup();
-        let has_left = |support: &Support| self.graph.has_left(support.contact);
+        let has_left = |&contact: &ContactId| self.graph.has_left(contact);
         let (gone, mut strayed): (Vec<usize>, Vec<usize>) =
-            noted.into_iter().partition(|&index| pairs[index].supports.iter().all(has_left));
+            noted.into_iter().partition(|&index| pairs[index].contacts.iter().all(has_left));
         // One contact of several may have left for good, as a side of a mesh does.
-        let has_strayed = |support: &Support| self.graph.get(support.contact, field::STRAY) > 0.0;
-        strayed.retain(|&index| pairs[index].supports.iter().any(has_strayed));
+        let has_strayed = |&contact: &ContactId| self.graph.get(contact, field::STRAY) > 0.0;
+        strayed.retain(|&index| pairs[index].contacts.iter().any(has_strayed));
         gone.into_iter().for_each(|index| self.end(pairs, index));
         self.renew_all(bodies, pairs, strayed, at);
         self.resting.retain(|&index| pairs[index].rests);
@@ -200,10 +205,12 @@ impl Rest {
 
     /// Renews the contacts of all these pairs.
     fn renew_all(&mut self, bodies: &Bodies, pairs: &mut Pairs, stale: Vec<usize>, at: (RestLaw, Span)) {
-        let views = self.graph.pool().map(&stale, LOOKS, |&index| self.look(bodies, pairs, index, at));
-        for (index, view) in stale.into_iter().zip(views) {
-            if let Some(view) = view {
-                self.adopt_view(bodies, pairs, index, &view);
+        for stale in stale.chunks(AT_ONCE) {
+            let views = self.graph.pool().map(stale, LOOKS, |&index| self.look(bodies, pairs, index, at));
+            for (&index, view) in stale.iter().zip(views) {
+                if let Some(view) = view {
+                    self.adopt_view(bodies, pairs, index, &view);
+                }
             }
         }
     }
@@ -215,5 +222,6 @@ fn owner(bodies: &Bodies, pair: &Pair, index: usize, contacts: usize) -> Owner {
     let slots = [a, b].map(|key| bodies.collider(key).map_or(0, |collider| collider.slot));
     let is_single = |slot: u32| bodies.record(slot).is_some_and(|record| record.colliders.len() == 1);
     let is_alone = contacts == 1 && slots.into_iter().all(is_single);
-    Owner { pair: index, bounces: pair.surface.restitution > 0.0, slots, is_alone }
+    let bounces = pair.surface.restitution > 0.0;
+    Owner { pair: index as u32, slots, is_alone, bounces, ..Owner::NOBODY }
 }

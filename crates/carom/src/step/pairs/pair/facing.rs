@@ -52,7 +52,7 @@ impl Facing {
 
 /// How far points of the two have turned with their bodies by a time within the step, m, since a time of no matter.
 fn turned(pair: &Pair, bodies: &Bodies, time: f64) -> f64 {
-    let of = |side: usize| bodies.way(pair.rows[side], time).1 * pair.spin_reach[side];
+    let of = |side: usize| bodies.way(pair.rows()[side], time).1 * pair.spin_reach[side];
     of(0) + of(1)
 }
 
@@ -74,7 +74,7 @@ struct Centers {
 impl Centers {
     fn of(pair: &Pair, bodies: &Bodies, (normal, time): (DVec3, f64)) -> Self {
         let mut centers = Self::default();
-        for (row, sign) in pair.rows.into_iter().zip([-1.0, 1.0]).filter(|&(row, _)| row != WORLD_ROW) {
+        for (row, sign) in pair.rows().into_iter().zip([-1.0, 1.0]).filter(|&(row, _)| row != WORLD_ROW) {
             let (constants, influence) = (&bodies.constants[row], &bodies.influences[row]);
             let flown = time - bodies.clocks[row];
             let (position, velocity) = fly_center(&bodies.states[row], constants, influence, flown);
