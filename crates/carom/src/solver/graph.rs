@@ -6,19 +6,21 @@
 //!
 //! Bodies that contacts connect make an *island* (`graph/islands.rs`). What is done until the velocities of an island agree
 //! stands in `graph/agree.rs`, where they start from in `graph/warm_start.rs`, how threads share a pass over all contacts in
-//! `graph/passes.rs`; what contacts then exert, in `graph/wrench.rs`.
+//! `graph/passes.rs`; what contacts then exert, in `graph/wrench.rs`; and how overlaps come out, in `graph/push_out.rs`.
 
 mod agree;
 mod islands;
 mod passes;
+mod push_out;
 mod warm_start;
 mod wrench;
 
 pub(crate) use agree::Effort;
+pub(crate) use push_out::Limits;
 pub(crate) use wrench::Wrench;
 
-use super::bundle::{Bundle, Lane, NO_CONTACT, POINTS, field};
-use super::lanes::{LANES, Line, Machine, Row};
+use super::bundle::{Bundle, Lane, NO_CONTACT, field};
+use super::lanes::{LANES, Machine};
 use crate::step::pool::Pool;
 use islands::Islands;
 use std::sync::Arc;
@@ -222,48 +224,7 @@ impl Graph {
         self.islands.rename_row(from as usize, to as usize);
         self.islands.is_stale = true;
     }
-
-    /// Finds displacements for all overlaps beyond `allowed` (m), into rows that hold none yet: they take `share` of what is beyond `left`
-    /// away. And tells which contact pushes how: displacements times masses, in place of impulses (kg·m).
-    pub fn push_out(
-        &mut self,
-        displacements: &mut [Row],
-        (share, [allowed, left]): (f32, [f32; 2]),
-        wrenches: &mut Vec<Wrench>,
-    ) {
-        wrenches.clear();
-        let overlaps = |bundle: &Bundle| bundle.lines[field::GAP].0.iter().any(|&gap| gap < -allowed);
-        if !self.colors.iter().flat_map(|color| &color.bundles).any(overlaps) {
-            return;
-        }
-        let impulses: Vec<[Line; POINTS]> = self
-            .order()
-            .flat_map(|color| &self.colors[color].bundles)
-            .map(|bundle| [0, 1, 2, 3].map(|point| bundle.lines[field::of_point(point, field::IMPULSE)]))
-            .collect();
-        self.each_bundle(|bundle| {
-            for point in 0..POINTS {
-                let separation = bundle.lines[field::of_point(point, field::SEPARATION)].0;
-                bundle.lines[field::of_point(point, field::IMPULSE)] = Line::ZERO;
-                bundle.lines[field::of_point(point, field::LEAST)] =
-                    Line(separation.map(|s| if s < -allowed { share * (-s - left) } else { -s.max(0.0) }));
-            }
-        });
-        for _ in 0..PUSH_SWEEPS {
-            self.sweep_normals(displacements);
-        }
-        self.wrenches(displacements, wrenches);
-        let mut impulses = impulses.into_iter();
-        self.each_bundle(|bundle| {
-            for (point, line) in impulses.next().into_iter().flatten().enumerate() {
-                bundle.lines[field::of_point(point, field::IMPULSE)] = line;
-            }
-        });
-    }
 }
-
-/// Sweeps that push overlaps out.
-const PUSH_SWEEPS: usize = 12;
 
 #[cfg(test)]
 mod tests;

@@ -120,6 +120,8 @@ impl Kernel for Sweep<'_> {
 /// [`sweep_normals`].
 pub(crate) struct SweepNormals<'a> {
     pub bundles: &'a mut [Bundle],
+    /// Which of the bundles.
+    pub chosen: &'a [bool],
     pub displacements: SharedRows<'a>,
 }
 
@@ -128,7 +130,7 @@ impl Kernel for SweepNormals<'_> {
 
     #[inline(always)]
     fn run<L: Lanes>(self) {
-        for index in 0..self.bundles.len() {
+        for index in (0..self.bundles.len()).filter(|&index| self.chosen[index]) {
             bring_next::<L>(self.bundles, index, field::SWEPT);
             sweep_normals::<L>(&mut self.bundles[index], self.displacements);
         }

@@ -34,6 +34,7 @@ pub(crate) fn sweep_normals<L: Lanes>(bundle: &mut Bundle, displacements: Shared
         for point in 0..bundle.points.min(POINTS) {
             motion.solve_normal(bundle, &pair, (point, part));
         }
+        (motion.residual * pair.inverse_mass()).store(&mut bundle.lines[field::RESIDUAL], part);
         let pushed = pair.push(&frame, motion.impulse, [motion.turn_a, motion.turn_b]);
         scatter(bundle, pushed, displacements, part);
     }

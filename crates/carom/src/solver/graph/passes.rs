@@ -5,7 +5,7 @@
 
 use super::{Color, ContactId, FIXED, Graph, KINDS, MOVING};
 use crate::solver::bundle::Bundle;
-use crate::solver::kernels::{Begin, Measure, Sweep, SweepNormals};
+use crate::solver::kernels::{Begin, Measure, Sweep};
 use crate::solver::lanes::{LANES, Machine, Row};
 use crate::solver::rows::SharedRows;
 use crate::step::profile::{self, Phase};
@@ -41,10 +41,10 @@ impl Graph {
         }
     }
 
-    pub(super) fn each_bundle(&mut self, mut act: impl FnMut(&mut Bundle)) {
-        for color in self.order() {
-            self.colors[color].bundles.iter_mut().for_each(&mut act);
-        }
+    /// The contacts of a bundle's lanes.
+    pub(super) fn contacts_of(&self, (color, index): Spot) -> &[u32] {
+        let contacts = &self.colors[color].contacts;
+        &contacts[index * LANES..contacts.len().min((index + 1) * LANES)]
     }
 
     /// Finds all separations from the bodies' drifts; comes to the contacts whose bodies have strayed too far from each other, or
@@ -75,12 +75,6 @@ impl Graph {
     pub(super) fn resume(&mut self, (before, velocities): (&[Row], &mut [Row]), limits: [f32; 2]) {
         let velocities = SharedRows::new(velocities);
         self.each_color(|machine, bundles| machine.run(Begin { bundles, before, velocities, limits }));
-    }
-
-    /// Sweeps once over the normals alone.
-    pub(super) fn sweep_normals(&mut self, displacements: &mut [Row]) {
-        let displacements = SharedRows::new(displacements);
-        self.each_color(|machine, bundles| machine.run(SweepNormals { bundles, displacements }));
     }
 
     /// Sweeps once over all bundles, or those `chosen` of each colour; where this has changed a velocity by more than `agreement`, m/s.

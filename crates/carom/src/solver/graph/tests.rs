@@ -3,6 +3,7 @@
 use super::*;
 use crate::math::DMat3;
 use crate::solver::direct::Mobility;
+use crate::solver::lanes::Row;
 use crate::solver::tests::Random;
 
 /// A contact as the model knows it; its number is written into its lane.
@@ -197,6 +198,7 @@ fn any_number_of_threads_gives_the_same_bits() {
         graph.validate(is_movable);
         let (mut velocities, drifts) = (problem.rows(), vec![Row([1e-4; 8]); problem.movers.len()]);
         let mut displacements = velocities.clone();
+        displacements.iter_mut().for_each(|row| row.0[..6].fill(0.0));
         for _ in 0..2 {
             graph.measure(&drifts);
             let unpushed = velocities.clone();
@@ -205,7 +207,9 @@ fn any_number_of_threads_gives_the_same_bits() {
         }
         let (mut wrenches, mut pushes) = (Vec::new(), Vec::new());
         graph.wrenches(&velocities, &mut wrenches);
-        graph.push_out(&mut displacements, (0.5, [0.0; 2]), &mut pushes);
+        let limits = Limits { allowed: 0.0, left: 0.0, share: 0.5 };
+        graph.push_out(&mut displacements, limits, &mut pushes);
+        assert!(!pushes.is_empty());
         wrenches.append(&mut pushes);
         assert_eq!(pool.has_workers(), threads > 1);
         let pushes = wrenches.iter().map(|it| (it.contact, it.impulse(), it.moment())).collect::<Vec<_>>();

@@ -2,6 +2,7 @@
 
 use super::islands::NONE;
 use super::*;
+use crate::solver::bundle::POINTS;
 use std::collections::{BTreeMap, BTreeSet};
 
 impl Graph {

@@ -120,23 +120,23 @@ fn sum_up<L: Lanes>(bundle: &Bundle) -> Sums {
             friction,
             arm.cross(friction) + twist,
         ];
-        for (sum, vector) in sums.iter_mut().zip(parts) {
-            let Vector { x, y, z } = frame.outward(vector);
-            for (line, component) in sum.iter_mut().zip([x, y, z]) {
-                component.store(line, part);
-            }
+        for number in 0..PARTS {
+            let outward = frame.outward(parts[number]);
+            outward.x.store(&mut sums[number][0], part);
+            outward.y.store(&mut sums[number][1], part);
+            outward.z.store(&mut sums[number][2], part);
         }
     }
     sums
 }
 
 /// What the contacts of some bundles exert that exert anything on a body of `rows` that can be moved.
-struct Find<'a> {
-    bundles: &'a [Bundle],
+pub(super) struct Find<'a> {
+    pub bundles: &'a [Bundle],
     /// The contact of each lane.
-    contacts: &'a [u32],
-    rows: &'a [Row],
-    found: &'a mut Vec<Wrench>,
+    pub contacts: &'a [u32],
+    pub rows: &'a [Row],
+    pub found: &'a mut Vec<Wrench>,
 }
 
 impl Kernel for Find<'_> {

@@ -6,6 +6,7 @@ use crate::bodies::Bodies;
 use crate::impacts::time_of_impact::RestLaw;
 use crate::ledger::contacts::{pushed_out, shifted, stock};
 use crate::math::{DVec3, rotation_from_vector};
+use crate::solver::graph::Limits;
 use crate::solver::lanes::{Row, WRITABLE};
 use crate::step::profile::{self, Phase};
 
@@ -34,8 +35,8 @@ impl Rest {
         }
         self.graph.measure(&self.rows.drifts);
         let allowed = law.overlap_left();
-        let limits = [allowed as f32, (LEFT * allowed) as f32];
-        self.graph.push_out(&mut self.rows.displacements, (PUSH_OUT, limits), &mut work.wrenches);
+        let limits = Limits { allowed: allowed as f32, left: (LEFT * allowed) as f32, share: PUSH_OUT };
+        self.graph.push_out(&mut self.rows.displacements, limits, &mut work.wrenches);
         if !work.wrenches.is_empty() {
             self.displace(bodies, &mut work);
         }
