@@ -182,12 +182,12 @@ const THREADS: [u32; 3] = [1, 2, 4];
 
 /// The hashes of states and events of [pile, mesh, gas, cradle, stack, crowd].
 const EXPECTED: [[u64; 2]; 6] = [
-    [0x87e0_5259_c072_b902, 0x3d43_e0f3_5b94_a7ee],
-    [0xe9b7_8977_ac96_ad8b, 0x10e0_5185_5b6e_8330],
+    [0xdf1b_8624_204e_cb22, 0xb7a2_3f6d_107d_191a],
+    [0xa547_e355_9713_ec7b, 0xcc64_33bc_1e3a_3f31],
     [0xb7c9_a597_8de9_22c8, 0x12d9_d339_e94d_7830],
     [0x495a_c80e_1b79_9fde, 0x046b_b65b_a085_2bf1],
-    [0xc211_5970_f97e_5493, 0xcb75_92be_0feb_0ae1],
-    [0x3b05_4022_2842_2e75, 0x1e98_19ce_ff8e_f9b5],
+    [0xecd9_fca3_0794_fe15, 0xb079_0a92_8b06_cf95],
+    [0xb45b_7dcd_32d8_f22c, 0x70ad_ae29_03e7_9477],
 ];
 
 #[test]
