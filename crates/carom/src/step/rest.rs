@@ -56,6 +56,8 @@ pub(crate) struct Rest {
     crowds: Crowds,
     /// Whose each contact is.
     owners: Vec<Owner>,
+    /// Whether each contact would bounce if it were struck faster: apart, as only a ledger asks, and for all of them.
+    bounces: Vec<bool>,
     work: Work,
     /// Whether each body's contacts are to be renewed.
     has_moved: Vec<bool>,
@@ -65,8 +67,6 @@ pub(crate) struct Rest {
 #[derive(Clone, Copy, Debug, Default)]
 struct Owner {
     pair: usize,
-    /// Whether it would bounce if it were struck faster.
-    bounces: bool,
     /// Those of its bodies, and whether these have no other contact with each other.
     slots: [u32; 2],
     is_alone: bool,
@@ -88,6 +88,7 @@ impl Rest {
             resting: Vec::new(),
             crowds: Crowds::default(),
             owners: Vec::new(),
+            bounces: Vec::new(),
             work: Work::default(),
             has_moved: Vec::new(),
         }

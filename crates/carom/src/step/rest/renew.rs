@@ -129,8 +129,11 @@ impl Rest {
                     self.graph.insert(rows, movable, lane)
                 }
             };
-            self.owners.resize(self.owners.len().max(contact.index() + 1), Owner::default());
+            let count = self.owners.len().max(contact.index() + 1);
+            self.owners.resize(count, Owner::default());
             self.owners[contact.index()] = owner;
+            self.bounces.resize(count, false);
+            self.bounces[contact.index()] = pair.surface.restitution > 0.0;
             pair.supports.push(Support::new(contact, manifold));
         }
         for support in old.iter().skip(view.contacts.len()) {
@@ -215,5 +218,5 @@ fn owner(bodies: &Bodies, pair: &Pair, index: usize, contacts: usize) -> Owner {
     let slots = [a, b].map(|key| bodies.collider(key).map_or(0, |collider| collider.slot));
     let is_single = |slot: u32| bodies.record(slot).is_some_and(|record| record.colliders.len() == 1);
     let is_alone = contacts == 1 && slots.into_iter().all(is_single);
-    Owner { pair: index, bounces: pair.surface.restitution > 0.0, slots, is_alone }
+    Owner { pair: index, slots, is_alone }
 }
