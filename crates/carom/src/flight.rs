@@ -210,6 +210,13 @@ impl Constants {
         *axes * (axes.mul_transpose_vec3(momentum) * self.rotor.inverse_moments)
     }
 
+    /// The energy (J) with which an angular momentum turns the body that has these principal axes in the world: `½ Σ aᵢπᵢ²`.
+    #[inline]
+    pub fn spin_energy(&self, axes: &DMat3, momentum: DVec3) -> f64 {
+        let local = axes.mul_transpose_vec3(momentum);
+        0.5 * (local * local).dot(self.rotor.inverse_moments)
+    }
+
     /// The principal axes in the world.
     pub fn principal_axes(&self, rotation: DQuat) -> DMat3 {
         DMat3::from_quat(rotation * self.rotor.principal)
@@ -318,6 +325,7 @@ pub(crate) fn fly_center(
 /// ```text
 /// x₀ + v₀·tψ + a·t²χ      χ = (½ − ψ)/ct → 1/6
 /// ```
+#[inline]
 pub(crate) fn mean_center(
     state: &RigidState,
     constants: &Constants,

@@ -4,9 +4,10 @@
 //! the velocities before and after where it acts at once, and over the path where it acts evenly.
 
 use super::Residual;
-use super::journal::{CAPTURE, CORRECTION, Journal, Passage, Path};
-use super::stock::Stock;
+use super::flights::weight;
+use super::journal::{CAPTURE, CORRECTION, INTEGRATION, Journal, Passage, Path};
 use crate::bodies::{Bodies, WORLD_ROW};
+use crate::flight::RigidState;
 use crate::math::DVec3;
 use crate::solver::graph::Wrench;
 
@@ -27,15 +28,6 @@ pub(crate) struct Exerted {
 pub(crate) struct Push {
     impulse: DVec3,
     turn: DVec3,
-}
-
-/// What a body gets in a substep by causes of its own account.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Causes {
-    /// Part of what contacts give: friction and twist.
-    friction: Push,
-    /// What rest capture gives besides.
-    capture: Push,
 }
 
 impl Push {
@@ -95,7 +87,7 @@ pub(crate) fn captured(bodies: &mut Bodies, row: usize, [impulse, turn]: [DVec3;
     if let Some(journal) = bodies.journal.as_deref_mut() {
         // What nothing pushes along keeps its velocity.
         let impulse = if bodies.constants[row].inverse_mass > 0.0 { impulse } else { DVec3::ZERO };
-        journal.causes[row].capture = Push { impulse, turn };
+        journal.captures[row] = Push { impulse, turn };
     }
 }
 
@@ -104,11 +96,11 @@ impl Journal {
     /// has it at hand: causes add up body by body as the whole does, so that no contact has to be gone through again.
     #[inline]
     pub fn note_causes(&mut self, wrench: &Wrench, centers: [DVec3; 2], bounces: bool) {
-        if let Ok(sides) = self.causes.get_disjoint_mut(wrench.rows()) {
-            add_sides(sides.map(|causes| &mut causes.friction), wrench, wrench.across(), centers);
+        if let Ok(sides) = self.frictions.get_disjoint_mut(wrench.rows()) {
+            add_sides(sides, wrench, wrench.across(), centers);
         }
         if bounces {
-            self.rebounds.resize(self.causes.len(), Push::default());
+            self.rebounds.resize(self.frictions.len(), Push::default());
             if let Ok(sides) = self.rebounds.get_disjoint_mut(wrench.rows()) {
                 add_sides(sides, wrench, wrench.normal(), centers);
             }
@@ -118,7 +110,8 @@ impl Journal {
     /// Books what contacts and rest capture have given to the body of a row.
     #[inline]
     fn book_row(&mut self, bodies: &Bodies, row: usize, exerted: &Exerted) {
-        let Causes { friction, capture } = std::mem::take(&mut self.causes[row]);
+        let friction = std::mem::take(&mut self.frictions[row]);
+        let capture = std::mem::take(&mut self.captures[row]);
         let push = Push { impulse: exerted.impulses[row], turn: exerted.turns[row] };
         let (center, rate) = (exerted.centers[row], 1.0 / exerted.time);
         let (constants, passage) = (&bodies.constants[row], self.passages[row]);
@@ -202,9 +195,20 @@ impl Journal {
     }
 }
 
-/// What the body of a row has, if there is a ledger.
-pub(crate) fn stock(bodies: &Bodies, row: usize) -> Option<Stock> {
-    bodies.journal.as_ref().map(|journal| Stock::of_row(bodies, row, journal.gravity))
+/// Books the angular momentum that a body got so that a force of contacts acts at its old place, and what was wanted.
+pub(crate) fn kept_to_plan(bodies: &mut Bodies, row: usize, [turn, wanted]: [DVec3; 2]) {
+    let Some(journal) = bodies.journal.as_deref_mut() else { return };
+    if turn == DVec3::ZERO && wanted == DVec3::ZERO {
+        return;
+    }
+    let (state, constants) = (&bodies.states[row], &bodies.constants[row]);
+    let spin = journal.axes[row].spin(constants, state.rotation, state.angular_momentum - 0.5 * turn);
+    let tally = &mut journal.tallies[row];
+    journal.posts.integration += turn.dot(spin);
+    tally.get_artefact(INTEGRATION, turn.dot(spin));
+    // Axes of infinite inertia do not take theirs.
+    journal.posts.kinematic.angular += turn - wanted;
+    tally.get(DVec3::ZERO, turn - wanted, 0.0);
 }
 
 /// Books what one contact does to angular momentum by pushing an overlap out (displacement times mass, kg·m): bodies that move have
@@ -227,12 +231,20 @@ pub(crate) fn shifted(bodies: &mut Bodies, wrench: &Wrench, inverse_masses: [f64
     }
 }
 
-/// Books the energy that pushing overlaps out has given to a body that had `before`.
-pub(crate) fn pushed_out(bodies: &mut Bodies, row: usize, before: &Stock) {
-    let Some(mut journal) = bodies.journal.take() else { return };
-    let change = Stock::of_row(bodies, row, journal.gravity).since(before);
-    journal.posts.position_correction += change.energy;
-    journal.tallies[row].get(change.linear, change.angular, 0.0);
-    journal.tallies[row].get_artefact(CORRECTION, change.energy);
-    bodies.journal = Some(journal);
+/// Books what pushing overlaps out has given to a body that had the state `before`: the energy, and the angular momentum of its
+/// moved line of motion.
+pub(crate) fn pushed_out(bodies: &mut Bodies, row: usize, before: &RigidState) {
+    let Some(journal) = bodies.journal.as_deref_mut() else { return };
+    let (after, constants) = (&bodies.states[row], &bodies.constants[row]);
+    let (axes, momentum) = (&mut journal.axes[row], after.angular_momentum);
+    let start = axes.spin_energy(constants, before.rotation, momentum);
+    let mut energy = axes.spin_energy(constants, after.rotation, momentum) - start;
+    let tally = &mut journal.tallies[row];
+    if constants.inverse_mass > 0.0 {
+        let way = after.position - before.position;
+        energy -= weight(constants, journal.gravity).dot(way);
+        tally.get(DVec3::ZERO, way.cross(constants.mass() * after.velocity), 0.0);
+    }
+    journal.posts.position_correction += energy;
+    tally.get_artefact(CORRECTION, energy);
 }

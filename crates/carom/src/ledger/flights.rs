@@ -8,7 +8,7 @@
 //! velocity from ω to ω' at one orientation does the work `½J·(ω + ω')`; while the body turns nothing acts, so that what its
 //! energy changes by meanwhile is the integrator's.
 
-use super::journal::{INTEGRATION, Journal, Passage, Path, Tally};
+use super::journal::{INTEGRATION, Journal, Passage, Path};
 use crate::bodies::Bodies;
 use crate::flight::{Constants, Influence, RigidState, mean_center};
 use crate::math::{DVec3, decay_fractions};
@@ -36,8 +36,14 @@ pub(crate) fn flown(bodies: &mut Bodies, row: usize, before: &RigidState, time: 
         return;
     }
     let path = journal.paths[row];
-    if path == Path::Free && only_falls(before, constants, influence, journal.gravity) {
+    if path == Path::Free && only_falls(constants, influence, journal.gravity) {
         journal.falls[row].add(mean_center(before, constants, influence, time), time);
+        let (momentum, arrival) = (before.angular_momentum, bodies.states[row].rotation);
+        if !constants.is_isotropic() && momentum != DVec3::ZERO {
+            let start = journal.axes[row].spin_energy(constants, before.rotation, momentum);
+            let end = journal.axes[row].spin_energy(constants, arrival, momentum);
+            journal.turned(row, constants, end - start);
+        }
         return;
     }
     let (push, torque) = bodies.forces[row];
@@ -74,15 +80,14 @@ pub(crate) fn minds_drifting(bodies: &Bodies, row: usize) -> bool {
         || bodies.forces[row] != (DVec3::ZERO, DVec3::ZERO)
 }
 
-/// Whether gravity is all that acts on a body, and turning does not change its energy.
+/// Whether gravity is all that acts on a body.
 #[inline]
-fn only_falls(state: &RigidState, constants: &Constants, influence: &Influence, gravity: DVec3) -> bool {
+fn only_falls(constants: &Constants, influence: &Influence, gravity: DVec3) -> bool {
     constants.inverse_mass > 0.0
         && constants.linear_damping == 0.0
         && constants.angular_damping == 0.0
         && influence.acceleration == gravity * constants.gravity_factor
         && influence.torque == DVec3::ZERO
-        && (constants.is_isotropic() || state.angular_momentum == DVec3::ZERO)
 }
 
 /// The mass on which gravity pulls, kg; nothing where it is infinite.
@@ -92,7 +97,8 @@ pub(super) fn heavy_mass(constants: &Constants) -> f64 {
 }
 
 /// Gravity's force on a body, N.
-fn weight(constants: &Constants, gravity: DVec3) -> DVec3 {
+#[inline]
+pub(super) fn weight(constants: &Constants, gravity: DVec3) -> DVec3 {
     heavy_mass(constants) * gravity
 }
 
@@ -191,29 +197,26 @@ impl Flight<'_> {
 
     fn book_turning(&self, journal: &mut Journal, row: usize) {
         let (before, after, constants, time) = (self.before, self.after, self.constants, self.time);
-        let (posts, tally) = (&mut journal.posts, &mut journal.tallies[row]);
         let kick = 0.5 * time * self.influence.torque;
         let momentum = before.angular_momentum + kick;
-        let departure = journal.axes[row].at(constants, before.rotation);
-        let arrival = journal.axes[row].at(constants, after.rotation);
-        let (first, last) =
-            (constants.spin_about(&departure, momentum), constants.spin_about(&arrival, momentum));
-        let turned = 0.5 * momentum.dot(last - first);
-        if constants.is_isotropic() {
-            // As fast as before, to the bit.
-        } else if constants.driven_spin == DVec3::ZERO {
-            posts.integration += turned;
-            tally.get_artefact(INTEGRATION, turned);
-        } else {
-            posts.work_kinematic += turned;
-            tally.get(DVec3::ZERO, DVec3::ZERO, turned);
-        }
-
-        let mut left = 1.0;
-        if constants.angular_damping > 0.0 {
+        let left = if constants.angular_damping > 0.0 {
             let decay = constants.angular_damping * time;
-            left = 1.0 - decay * decay_fractions(decay)[0];
-            let loss = 0.5 * momentum.dot(last) * (1.0 - left * left);
+            1.0 - decay * decay_fractions(decay)[0]
+        } else {
+            1.0
+        };
+        let departure = journal.axes[row].at(constants, before.rotation);
+        let first = constants.spin_about(departure, before.angular_momentum + momentum);
+        let start = constants.spin_energy(departure, momentum);
+        let arrival = journal.axes[row].at(constants, after.rotation);
+        let last = constants.spin_about(arrival, momentum * left + after.angular_momentum);
+        let energy = constants.spin_energy(arrival, momentum);
+        if !constants.is_isotropic() {
+            journal.turned(row, constants, energy - start);
+        }
+        let (posts, tally) = (&mut journal.posts, &mut journal.tallies[row]);
+        if constants.angular_damping > 0.0 {
+            let loss = energy * (1.0 - left * left);
             posts.external.angular -= momentum * (1.0 - left);
             posts.loss_damping += loss;
             tally.get(DVec3::ZERO, -momentum * (1.0 - left), -loss);
@@ -223,15 +226,28 @@ impl Flight<'_> {
         if self.path != Path::Steady && !by_user {
             return;
         }
-        let start = constants.spin_about(&departure, before.angular_momentum);
-        let end = constants.spin_about(&arrival, after.angular_momentum);
-        let turn = (start + first + last * left + end) * (0.25 * time);
+        let turn = (first + last) * (0.25 * time);
         journal.passages[row].turn += turn;
         if by_user {
             let impulse = self.torque * time;
             posts.external.angular += impulse;
             posts.work_external += self.torque.dot(turn);
             tally.get(DVec3::ZERO, impulse, self.torque.dot(turn));
+        }
+    }
+}
+
+impl Journal {
+    /// Books the energy (J) that a body without symmetry has got by turning, while nothing twisted it.
+    #[inline]
+    fn turned(&mut self, row: usize, constants: &Constants, energy: f64) {
+        let tally = &mut self.tallies[row];
+        if constants.driven_spin == DVec3::ZERO {
+            self.posts.integration += energy;
+            tally.get_artefact(INTEGRATION, energy);
+        } else {
+            self.posts.work_kinematic += energy;
+            tally.get(DVec3::ZERO, DVec3::ZERO, energy);
         }
     }
 }
@@ -259,7 +275,7 @@ pub(crate) fn set_out(bodies: &mut Bodies, row: usize, before: &RigidState, (tim
     }
     let way = (before.velocity + after.velocity) * (0.5 * time);
     let momentum = 0.5 * (before.angular_momentum + after.angular_momentum);
-    let turn = constants.free_spin(before.rotation, momentum) * time;
+    let turn = journal.axes[row].spin(constants, before.rotation, momentum) * time;
     journal.paths[row] = Path::Kicked;
     journal.passages[row] = Passage { way, turn };
 
@@ -280,20 +296,4 @@ pub(crate) fn set_out(bodies: &mut Bodies, row: usize, before: &RigidState, (tim
         posts.work_external += work;
         tally.get(impulse, moment, work);
     }
-}
-
-/// Books the angular momentum that a body got so that a force of contacts acts at its old place, and what was wanted.
-pub(crate) fn kept_to_plan(bodies: &mut Bodies, row: usize, [turn, wanted]: [DVec3; 2]) {
-    let Some(journal) = bodies.journal.as_deref_mut() else { return };
-    if turn == DVec3::ZERO && wanted == DVec3::ZERO {
-        return;
-    }
-    let (state, constants) = (&bodies.states[row], &bodies.constants[row]);
-    let spin = constants.free_spin(state.rotation, state.angular_momentum - 0.5 * turn);
-    let tally: &mut Tally = &mut journal.tallies[row];
-    journal.posts.integration += turn.dot(spin);
-    tally.get_artefact(INTEGRATION, turn.dot(spin));
-    // Axes of infinite inertia do not take theirs.
-    journal.posts.kinematic.angular += turn - wanted;
-    tally.get(DVec3::ZERO, turn - wanted, 0.0);
 }

@@ -1,7 +1,7 @@
 //! What is noted while a step goes on.
 
 use super::axes::Axes;
-use super::contacts::{Causes, Exerted, Push};
+use super::contacts::{Exerted, Push};
 use super::flights::heavy_mass;
 use super::{Posts, Residual, Stock};
 use crate::bodies::Bodies;
@@ -32,8 +32,10 @@ pub(crate) struct Journal {
     is_known: bool,
     /// What contacts exert in the present substep.
     pub exerted: Exerted,
-    /// Row by row, by which causes: nothing, where no substep is under way.
-    pub causes: Vec<Causes>,
+    /// Row by row, the part of it that is friction and twist: nothing, where no substep is under way.
+    pub frictions: Vec<Push>,
+    /// What rest capture gives besides.
+    pub captures: Vec<Push>,
     /// Row by row, what contacts give along their normals that bounce when struck faster; empty if there are none.
     pub rebounds: Vec<Push>,
     /// A body was lost.
@@ -167,7 +169,8 @@ impl Journal {
         self.paths.resize(rows, Path::Free);
         self.passages.resize(rows, Passage::default());
         self.rotations.resize(rows, DQuat::IDENTITY);
-        self.causes.resize(rows, Causes::default());
+        self.frictions.resize(rows, Push::default());
+        self.captures.resize(rows, Push::default());
         self.sum
     }
 
@@ -191,7 +194,7 @@ impl Journal {
         self.end.clear();
         let rows = bodies.states.iter().zip(&bodies.constants).zip(&mut self.axes);
         self.end.extend(rows.map(|((state, constants), axes)| {
-            let stock = Stock::of(state, constants, (gravity, axes.spin(constants, state)));
+            let stock = Stock::of(state, constants, (gravity, axes));
             sum += stock;
             let distance = state.position.length();
             add_to(&mut gross, stock.sizes(distance));

@@ -1,6 +1,7 @@
 //! What bodies have.
 
 use super::Residual;
+use super::axes::Axes;
 use super::flights::heavy_mass;
 use crate::bodies::Bodies;
 use crate::flight::{Constants, RigidState};
@@ -22,19 +23,17 @@ pub struct Stock {
 impl Stock {
     /// What the body of a row has.
     pub(crate) fn of_row(bodies: &Bodies, row: usize, gravity: DVec3) -> Self {
-        let (state, constants) = (&bodies.states[row], &bodies.constants[row]);
-        let spin = constants.free_spin(state.rotation, state.angular_momentum);
-        Self::of(state, constants, (gravity, spin))
+        Self::of(&bodies.states[row], &bodies.constants[row], (gravity, &mut Axes::UNKNOWN.clone()))
     }
 
-    /// What a body has in this state, in which its angular momentum turns it with `spin` (rad/s).
+    /// What a body has in this state.
     #[inline]
-    pub(super) fn of(state: &RigidState, constants: &Constants, (gravity, spin): (DVec3, DVec3)) -> Self {
+    pub(super) fn of(state: &RigidState, constants: &Constants, (gravity, axes): (DVec3, &mut Axes)) -> Self {
         let mut stock = Stock::default();
         if !constants.is_movable() {
             return stock;
         }
-        stock.energy.kinetic = 0.5 * spin.dot(state.angular_momentum);
+        stock.energy.kinetic = axes.spin_energy(constants, state.rotation, state.angular_momentum);
         stock.momentum.angular = state.angular_momentum;
         if constants.inverse_mass > 0.0 {
             let linear = constants.mass() * state.velocity;

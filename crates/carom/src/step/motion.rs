@@ -3,7 +3,8 @@
 use crate::bodies::{Bodies, WORLD_ROW};
 use crate::flight::{Influence, RigidState, fly, fly_center, mean_center};
 use crate::impacts::time_of_impact::RestLaw;
-use crate::ledger::flights::{flown, kept_to_plan, minds_drifting};
+use crate::ledger::contacts::kept_to_plan;
+use crate::ledger::flights::{flown, minds_drifting};
 use crate::math::DVec3;
 use crate::step::pool::Pool;
 use crate::step::profile::{self, Phase};

@@ -23,8 +23,8 @@ use crate::bodies::{Bodies, WORLD_ROW};
 use crate::step::broad_phase::{BroadPhase, ColliderPair};
 use crate::step::profile::{self, Phase};
 use blocks::Blocks;
-use pair::Present;
 pub(crate) use pair::Pair;
+use pair::Present;
 use watch::Watch;
 
 /// A pair in a list.

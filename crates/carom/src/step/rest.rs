@@ -16,6 +16,7 @@
 //! rest/renew.rs     contacts looked at anew where bodies have moved
 //! rest/remember.rs  what pressed goes on pressing
 //! rest/crowds.rs    where many bodies rest against each other
+//! rest/owner.rs     whose a contact is, and what touches in it
 //! rest/hold.rs      impulses
 //! rest/give.rs      the paths that they give; rest capture
 //! rest/work.rs      what is known of each body meanwhile
@@ -25,6 +26,7 @@
 mod crowds;
 mod give;
 mod hold;
+mod owner;
 mod push_out;
 mod remember;
 mod renew;
@@ -33,10 +35,9 @@ mod validate;
 mod work;
 
 use crate::bodies::{Bodies, WORLD_ROW};
-use crate::collide::{ContactPoint, Manifold};
 use crate::impacts::time_of_impact::{Approach, Kept, RestLaw};
 use crate::math::DVec3;
-use crate::solver::bundle::{POINTS, field};
+use crate::solver::bundle::field;
 use crate::solver::graph::{ContactId, Graph};
 use crate::solver::lanes::Machine;
 use crate::solver::rows::Rows;
@@ -45,6 +46,7 @@ use crate::step::pairs::{Pair, Pairs};
 use crate::step::pool::Pool;
 use crate::step::profile::{self, Phase};
 use crowds::Crowds;
+use owner::Owner;
 use std::sync::Arc;
 use work::Work;
 
@@ -57,54 +59,11 @@ pub(crate) struct Rest {
     crowds: Crowds,
     /// Whose each contact is.
     owners: Vec<Owner>,
+    /// Whether each contact would bounce if it were struck faster: apart, as only a ledger asks, and for all of them.
+    bounces: Vec<bool>,
     work: Work,
     /// Whether each body's contacts are to be renewed.
     has_moved: Vec<bool>,
-}
-
-/// The pair that a contact belongs to, and what touches.
-#[derive(Clone, Copy, Debug)]
-struct Owner {
-    pair: u32,
-    /// Those of its bodies, and whether these have no other contact with each other.
-    slots: [u32; 2],
-    is_alone: bool,
-    /// Whether it would bounce if it were struck faster.
-    bounces: bool,
-    /// How many points there are, and the keys of the features that touch at each.
-    points: u8,
-    features: [[u32; 2]; POINTS],
-}
-
-impl Owner {
-    /// Of a contact that is no more.
-    const NOBODY: Owner = Owner {
-        pair: u32::MAX,
-        slots: [u32::MAX; 2],
-        is_alone: false,
-        bounces: false,
-        points: 0,
-        features: [[0; 2]; POINTS],
-    };
-
-    /// The owner of a contact with the points of this manifold.
-    fn with_points(mut self, manifold: &Manifold) -> Self {
-        self.points = manifold.points().len() as u8;
-        for (entry, point) in self.features.iter_mut().zip(manifold.points()) {
-            *entry = touching(point);
-        }
-        self
-    }
-
-    /// The keys of what touches at each point.
-    fn features(&self) -> &[[u32; 2]] {
-        &self.features[..self.points.into()]
-    }
-}
-
-/// The keys of the features that touch at a point.
-fn touching(point: &ContactPoint) -> [u32; 2] {
-    [point.feature_a.key(), point.feature_b.key()]
 }
 
 /// A stretch of a step.
@@ -123,6 +82,7 @@ impl Rest {
             resting: Vec::new(),
             crowds: Crowds::default(),
             owners: Vec::new(),
+            bounces: Vec::new(),
             work: Work::default(),
             has_moved: Vec::new(),
         }
@@ -196,7 +156,8 @@ impl Rest {
         for number in 0..pairs.count_of_watched() {
             let index = pairs.watched(number);
             let pair = &pairs[index];
-            let is_near = !pair.rests && !pair.sensor && pairs.least_separation(bodies, index, span.from) <= margin;
+            let is_near =
+                !pair.rests && !pair.sensor && pairs.least_separation(bodies, index, span.from) <= margin;
             if !is_near || !pair.rows().into_iter().any(|row| stirs(bodies, row)) {
                 continue;
             }
@@ -295,7 +256,7 @@ impl Rest {
         let movable = pair.rows().map(|row| bodies.constants[row].inverse_mass).into_iter();
         let weight = law.gravity.length() * law.substep / movable.fold(f64::MIN_POSITIVE, f64::max);
         let pushed = pair.contacts.iter().flat_map(|&contact| {
-            let points = 0..self.owners[contact.index()].points.into();
+            let points = 0..self.owners[contact.index()].count();
             points.map(move |point| self.graph.get(contact, field::of_point(point, field::IMPULSE)))
         });
         pushed.map(f64::from).sum::<f64>() > TRACE * weight
@@ -325,7 +286,7 @@ impl Rest {
             let inward = |v: DVec3| DVec3::new(v.dot(first), v.dot(second), v.dot(normal));
             let relative = (motion[1].0 - motion[0].0).dot(normal);
             let (spin_a, spin_b) = (inward(motion[0].1), inward(motion[1].1));
-            (0..self.owners[contact.index()].points.into()).any(|point| {
+            (0..self.owners[contact.index()].count()).any(|point| {
                 let at = |line: usize| field::of_point(point, line);
                 let (arm_a, arm_b) = (axis(at(field::ARM_A)), axis(at(field::ARM_B)));
                 let speed = relative + (spin_b.x * arm_b.y - spin_b.y * arm_b.x)

@@ -75,8 +75,8 @@ impl Present {
 
     /// How far apart the two of `pair` stay, and will be at the end, as far as they have been asked, m.
     fn foreseen(&self, bodies: &Bodies, pair: &Pair) -> Option<[f64; 2]> {
-        let holds = self.apart[0] > f64::NEG_INFINITY
-            && self.courses == pair.rows().map(|row| bodies.courses[row]);
+        let holds =
+            self.apart[0] > f64::NEG_INFINITY && self.courses == pair.rows().map(|row| bodies.courses[row]);
         holds.then_some(self.apart)
     }
 }

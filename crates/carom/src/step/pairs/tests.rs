@@ -21,7 +21,10 @@ impl Pairs {
             assert!(entries.is_sorted_by(|a, b| a.colliders < b.colliders), "pairs of {row} in order");
             for entry in entries {
                 let pair = self.list[entry.index as usize].as_ref().expect("a pair");
-                assert!(pair.colliders == entry.colliders && pair.rows().contains(&row), "{entry:?} of {row}");
+                assert!(
+                    pair.colliders == entry.colliders && pair.rows().contains(&row),
+                    "{entry:?} of {row}"
+                );
                 listed[entry.index as usize] += 1;
             }
         }

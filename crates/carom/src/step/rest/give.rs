@@ -104,7 +104,7 @@ impl Rest {
                 work.turns[row] += wrench.turn(side, push, centers);
             }
             if let Some(journal) = &mut bodies.journal {
-                journal.note_causes(wrench, centers, self.owners[wrench.contact.index()].bounces);
+                journal.note_causes(wrench, centers, self.bounces[wrench.contact.index()]);
             }
         }
     }

@@ -4,7 +4,7 @@ use super::Rest;
 use super::work::{Work, copy, fill};
 use crate::bodies::Bodies;
 use crate::impacts::time_of_impact::RestLaw;
-use crate::ledger::contacts::{pushed_out, shifted, stock};
+use crate::ledger::contacts::{pushed_out, shifted};
 use crate::math::{DVec3, rotation_from_vector};
 use crate::solver::graph::Limits;
 use crate::solver::lanes::{Row, WRITABLE};
@@ -59,15 +59,13 @@ impl Rest {
             let angular = self.rows.displacements[row].0;
             let angular = DVec3::new(angular[3].into(), angular[4].into(), angular[5].into());
             if moves[row] != DVec3::ZERO || angular != DVec3::ZERO {
-                let before = stock(bodies, row);
+                let before = bodies.states[row];
                 let state = &mut bodies.states[row];
                 state.position += moves[row];
                 state.rotation = (rotation_from_vector(angular) * state.rotation).normalize();
                 bodies.ways[row].0 += moves[row].length();
                 bodies.ways[row].1 += angular.length();
-                if let Some(before) = before {
-                    pushed_out(bodies, row, &before);
-                }
+                pushed_out(bodies, row, &before);
             }
         }
     }

@@ -4,7 +4,8 @@
 //! wins by a hair, another four of eight points are kept. What pressed goes on pressing all the same: the new
 //! points start with impulses that push and turn both bodies as the old ones did.
 
-use super::{Rest, touching};
+use super::Rest;
+use super::owner::touching;
 use crate::collide::{ContactPoint, Manifold};
 use crate::math::{DMat3, DVec3, any_tangent};
 use crate::solver::bundle::{POINTS, field};

@@ -5,9 +5,10 @@
 //! angular velocity too. Impulses go over from the old contacts to the new ones (`remember.rs`).
 
 use super::crowds::reach_in_crowd;
+use super::owner::Owner;
 use super::remember::remembered;
 use super::work::fill;
-use super::{Owner, Rest, Span, horizon};
+use super::{Rest, Span, horizon};
 use crate::bodies::{Bodies, ColliderRow};
 use crate::collide::Manifold;
 use crate::impacts::time_of_impact::{Approach, RestLaw};
@@ -119,7 +120,7 @@ impl Rest {
         let rows = pair.rows().map(|row| row as u32);
         let movable = pair.rows().map(|row| bodies.constants[row].is_movable());
         (pair.is_pressed, pair.is_outdated) = (view.is_pressed, false);
-        let owner = owner(bodies, pair, index, view.contacts.len());
+        let owner = Owner::of(bodies, pair, index, view.contacts.len());
         for (number, (manifold, lane)) in view.contacts.iter().enumerate() {
             let contact = match pair.contacts.get(number) {
                 Some(&contact) => {
@@ -133,10 +134,11 @@ impl Rest {
                     contact
                 }
             };
-            if contact.index() >= self.owners.len() {
-                self.owners.resize(contact.index() + 1, Owner::NOBODY);
-            }
+            let count = self.owners.len().max(contact.index() + 1);
+            self.owners.resize(count, Owner::NOBODY);
             self.owners[contact.index()] = owner.with_points(manifold);
+            self.bounces.resize(count, false);
+            self.bounces[contact.index()] = pair.surface.restitution > 0.0;
         }
         for contact in pair.contacts.drain(view.contacts.len()..) {
             self.release(contact);
@@ -214,14 +216,4 @@ impl Rest {
             }
         }
     }
-}
-
-/// Whose the contacts of a pair are, of which it has so many.
-fn owner(bodies: &Bodies, pair: &Pair, index: usize, contacts: usize) -> Owner {
-    let (a, b) = pair.colliders;
-    let slots = [a, b].map(|key| bodies.collider(key).map_or(0, |collider| collider.slot));
-    let is_single = |slot: u32| bodies.record(slot).is_some_and(|record| record.colliders.len() == 1);
-    let is_alone = contacts == 1 && slots.into_iter().all(is_single);
-    let bounces = pair.surface.restitution > 0.0;
-    Owner { pair: index as u32, slots, is_alone, bounces, ..Owner::NOBODY }
 }

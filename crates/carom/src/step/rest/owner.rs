@@ -1,0 +1,63 @@
+//! Whose a contact is, and what touches in it.
+
+use crate::bodies::Bodies;
+use crate::collide::{ContactPoint, Manifold};
+use crate::solver::bundle::POINTS;
+use crate::step::pairs::Pair;
+
+/// The pair that a contact belongs to, and what touches.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Owner {
+    /// The pair's index.
+    pub pair: u32,
+    /// The slots of its bodies, and whether these have no other contact with each other.
+    pub slots: [u32; 2],
+    pub is_alone: bool,
+    /// How many points there are, and the keys of the features that touch at each.
+    points: u8,
+    features: [[u32; 2]; POINTS],
+}
+
+impl Owner {
+    /// Of a contact that is no more.
+    pub const NOBODY: Owner = Owner {
+        pair: u32::MAX,
+        slots: [u32::MAX; 2],
+        is_alone: false,
+        points: 0,
+        features: [[0; 2]; POINTS],
+    };
+
+    /// The owner of the contacts of a pair, of which it has so many.
+    pub fn of(bodies: &Bodies, pair: &Pair, index: usize, contacts: usize) -> Self {
+        let (a, b) = pair.colliders;
+        let slots = [a, b].map(|key| bodies.collider(key).map_or(0, |collider| collider.slot));
+        let is_single = |slot: u32| bodies.record(slot).is_some_and(|record| record.colliders.len() == 1);
+        let is_alone = contacts == 1 && slots.into_iter().all(is_single);
+        Self { pair: index as u32, slots, is_alone, ..Self::NOBODY }
+    }
+
+    /// The same, of the contact with the points of this manifold.
+    pub fn with_points(mut self, manifold: &Manifold) -> Self {
+        self.points = manifold.points().len() as u8;
+        for (entry, point) in self.features.iter_mut().zip(manifold.points()) {
+            *entry = touching(point);
+        }
+        self
+    }
+
+    /// How many points there are.
+    pub fn count(&self) -> usize {
+        self.points.into()
+    }
+
+    /// The keys of what touches at each point.
+    pub fn features(&self) -> &[[u32; 2]] {
+        &self.features[..self.count()]
+    }
+}
+
+/// The keys of the features that touch at a point.
+pub(super) fn touching(point: &ContactPoint) -> [u32; 2] {
+    [point.feature_a.key(), point.feature_b.key()]
+}
