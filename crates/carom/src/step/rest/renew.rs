@@ -16,7 +16,7 @@ use crate::math::{DMat3, DVec3};
 use crate::solver::bundle::{Lane, field};
 use crate::solver::graph::ContactId;
 use crate::solver::prepare::{Remembered, Side, Terms, lane};
-use crate::step::pairs::{Pair, Pairs};
+use crate::step::pairs::Pairs;
 use crate::step::profile::{self, Phase};
 
 /// Motion of a body, as a share of its smallest collider's reach or in radians, after which its contacts are renewed: of one that lies or
