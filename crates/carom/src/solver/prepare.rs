@@ -88,33 +88,33 @@ impl Frame {
     }
 }
 
-/// The lane of up to four points that share `normal`, from `a` to `b`.
-pub(crate) fn lane(
-    normal: DVec3,
-    points: &[ContactPoint],
+/// Fills the lane of up to four points that share `normal`, from `a` to `b`.
+pub(crate) fn fill_lane(
+    lane: &mut Lane,
+    (normal, points): (DVec3, &[ContactPoint]),
     sides: &[Side; 2],
     terms: &Terms,
     remembered: &Remembered,
-) -> Lane {
+) {
     let first = any_tangent(normal);
     let frame = Frame { first, second: normal.cross(first), normal };
-    let mut lane = [0.0; field::COUNT];
+    lane.fill(0.0);
     let mut put = |line: usize, value: f64| lane[line] = value as f32;
     put_vector(&mut put, field::NORMAL, normal);
     put_vector(&mut put, field::TANGENT, first);
-    let inertia = sides.map(|side| frame.tensor(&side.inverse_inertia));
+    let inertia = sides.each_ref().map(|side| frame.tensor(&side.inverse_inertia));
     for (entry, (a, b)) in inertia[0].into_iter().zip(inertia[1]).enumerate() {
         put(field::INVERSE_INERTIA_A + entry, a);
         put(field::INVERSE_INERTIA_B + entry, b);
     }
     let inverse_mass = sides[0].inverse_mass + sides[1].inverse_mass;
     let apart = normal.dot(sides[1].drift.0 - sides[0].drift.0);
-    let drifts = sides.map(|side| frame.drift_of_arm(side.drift.1));
+    let drifts = sides.each_ref().map(|side| frame.drift_of_arm(side.drift.1));
 
     let middle = middle(points, terms.margin);
     for (index, contact) in points.iter().enumerate() {
         let at = |line: usize| field::of_point(index, line);
-        let arms = sides.map(|side| frame.inward(contact.point - side.center));
+        let arms = sides.each_ref().map(|side| frame.inward(contact.point - side.center));
         // The part of each arm that turns with its body ends where the surface's centre of curvature is.
         let turning = [arms[0] - sides[0].roundness * DVec3::Z, arms[1] + sides[1].roundness * DVec3::Z];
         put_vector(&mut put, at(field::ARM_A), turning[0]);
@@ -137,7 +137,7 @@ pub(crate) fn lane(
     let separations = points.iter().map(|contact| contact.separation);
     put(field::GAP, separations.clone().fold(f64::from(f32::MAX), f64::min));
     put(field::WIDEST, separations.fold(f64::from(f32::MIN), f64::max));
-    let arms = sides.map(|side| frame.inward(middle - side.center));
+    let arms = sides.each_ref().map(|side| frame.inward(middle - side.center));
     put_vector(&mut put, field::FRICTION_ARM_A, arms[0]);
     put_vector(&mut put, field::FRICTION_ARM_B, arms[1]);
     put_vector(&mut put, field::RENEWED_FRICTION_A, arms[0]);
@@ -157,10 +157,9 @@ pub(crate) fn lane(
     put(field::SHARE, share(sides));
     put(field::FOLLOWS, f64::from(sides.iter().any(|side| side.roundness == 0.0)));
     put_vector(&mut put, field::DRIFTED, frame.inward(sides[1].drift.0 - sides[0].drift.0));
-    let turned = sides.map(|side| frame.twice_turn(side.drift.1));
+    let turned = sides.each_ref().map(|side| frame.twice_turn(side.drift.1));
     put_vector(&mut put, field::TURNED_A, turned[0]);
     put_vector(&mut put, field::TURNED_B, turned[1]);
-    lane
 }
 
 /// Where the two bodies' ideas of a place differ: what is round touches where it is, on what is not. Else the lighter one's counts

@@ -10,17 +10,24 @@ mod width;
 
 pub(crate) use crate::random::Random;
 
-use super::bundle::{Bundle, Lane};
+use super::bundle::{Bundle, Lane, NO_CONTACT};
 use super::contact::sweep;
 use super::direct::{Island, Mobility};
 use super::lanes::{Portable, Row};
-use super::prepare::{Remembered, Side, Terms, lane};
+use super::prepare::{Remembered, Side, Terms, fill_lane};
 use super::rows::SharedRows;
 use crate::collide::ContactPoint;
 use crate::impulse::Velocity;
 use crate::material::Surface;
 use crate::math::{DMat3, DQuat, DVec3, rotated_diagonal};
 use crate::report::Feature;
+
+/// The lane of these points, which have exerted nothing yet.
+fn lane(normal: DVec3, points: &[ContactPoint], sides: &[Side; 2], terms: &Terms) -> Lane {
+    let mut lane = NO_CONTACT;
+    fill_lane(&mut lane, (normal, points), sides, terms, &Remembered::default());
+    lane
+}
 
 /// A body of a problem.
 #[derive(Clone, Copy, Debug)]
@@ -162,7 +169,7 @@ impl Problem {
         let [static_friction, dynamic_friction] = touch.friction;
         let surface = Surface { restitution: 0.0, static_friction, dynamic_friction };
         let terms = Terms { surface, margin: MARGIN, horizon: 1.0, is_pressed: false };
-        lane(touch.normal, &points, &sides, &terms, &Remembered::default())
+        lane(touch.normal, &points, &sides, &terms)
     }
 
     /// Each contact in a bundle of its own.

@@ -256,7 +256,7 @@ impl Rest {
         let movable = pair.rows().map(|row| bodies.constants[row].inverse_mass).into_iter();
         let weight = law.gravity.length() * law.substep / movable.fold(f64::MIN_POSITIVE, f64::max);
         let pushed = pair.contacts.iter().flat_map(|&contact| {
-            let points = 0..self.owners[contact.index()].count();
+            let points = 0..self.owners[contact.index()].touched.count();
             points.map(move |point| self.graph.get(contact, field::of_point(point, field::IMPULSE)))
         });
         pushed.map(f64::from).sum::<f64>() > TRACE * weight
@@ -286,7 +286,7 @@ impl Rest {
             let inward = |v: DVec3| DVec3::new(v.dot(first), v.dot(second), v.dot(normal));
             let relative = (motion[1].0 - motion[0].0).dot(normal);
             let (spin_a, spin_b) = (inward(motion[0].1), inward(motion[1].1));
-            (0..self.owners[contact.index()].count()).any(|point| {
+            (0..self.owners[contact.index()].touched.count()).any(|point| {
                 let at = |line: usize| field::of_point(point, line);
                 let (arm_a, arm_b) = (axis(at(field::ARM_A)), axis(at(field::ARM_B)));
                 let speed = relative + (spin_b.x * arm_b.y - spin_b.y * arm_b.x)

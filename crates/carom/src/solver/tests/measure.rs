@@ -63,7 +63,7 @@ impl Case {
         let terms = Terms { surface, margin: MARGIN, horizon: 1.0, is_pressed: false };
         let points = [at(self.point, self.separation)];
         let mut bundle = Bundle::EMPTY;
-        bundle.write(0, [1, 2], &lane(self.normal, &points, &sides, &terms, &Remembered::default()));
+        bundle.write(0, [1, 2], &lane(self.normal, &points, &sides, &terms));
         bundle
     }
 

@@ -11,7 +11,7 @@ fn boxes_that_are_askew_by_rounding_have_no_denormal_numbers() {
     let surface = Surface { restitution: 0.0, static_friction: 0.5, dynamic_friction: 0.5 };
     let terms = Terms { surface, margin: MARGIN, horizon: 1.0, is_pressed: false };
     let sides = [side(&movers[0]), side(&movers[1])];
-    let lane = lane(DVec3::Y, &points, &sides, &terms, &Remembered::default());
+    let lane = lane(DVec3::Y, &points, &sides, &terms);
     let denormal: Vec<usize> = (0..lane.len()).filter(|&line| lane[line].is_subnormal()).collect();
     assert!(denormal.is_empty(), "lines {denormal:?}");
 }

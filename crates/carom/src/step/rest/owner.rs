@@ -13,20 +13,13 @@ pub(super) struct Owner {
     /// The slots of its bodies, and whether these have no other contact with each other.
     pub slots: [u32; 2],
     pub is_alone: bool,
-    /// How many points there are, and the keys of the features that touch at each.
-    points: u8,
-    features: [[u32; 2]; POINTS],
+    pub touched: Touched,
 }
 
 impl Owner {
     /// Of a contact that is no more.
-    pub const NOBODY: Owner = Owner {
-        pair: u32::MAX,
-        slots: [u32::MAX; 2],
-        is_alone: false,
-        points: 0,
-        features: [[0; 2]; POINTS],
-    };
+    pub const NOBODY: Owner =
+        Owner { pair: u32::MAX, slots: [u32::MAX; 2], is_alone: false, touched: Touched::NOTHING };
 
     /// The owner of the contacts of a pair, of which it has so many.
     pub fn of(bodies: &Bodies, pair: &Pair, index: usize, contacts: usize) -> Self {
@@ -34,30 +27,41 @@ impl Owner {
         let slots = [a, b].map(|key| bodies.collider(key).map_or(0, |collider| collider.slot));
         let is_single = |slot: u32| bodies.record(slot).is_some_and(|record| record.colliders.len() == 1);
         let is_alone = contacts == 1 && slots.into_iter().all(is_single);
-        Self { pair: index as u32, slots, is_alone, ..Self::NOBODY }
+        Self { pair: index as u32, slots, is_alone, touched: Touched::NOTHING }
     }
+}
 
-    /// The same, of the contact with the points of this manifold.
-    pub fn with_points(mut self, manifold: &Manifold) -> Self {
-        self.points = manifold.points().len() as u8;
-        for (entry, point) in self.features.iter_mut().zip(manifold.points()) {
-            *entry = touching(point);
+/// What touches at each point of a contact.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Touched {
+    count: u8,
+    /// Keys of both features.
+    features: [[u32; 2]; POINTS],
+}
+
+impl Touched {
+    const NOTHING: Touched = Touched { count: 0, features: [[0; 2]; POINTS] };
+
+    pub fn of(manifold: &Manifold) -> Self {
+        let mut touched = Self { count: manifold.points().len() as u8, ..Self::NOTHING };
+        for (entry, point) in touched.features.iter_mut().zip(manifold.points()) {
+            *entry = keys(point);
         }
-        self
+        touched
     }
 
     /// How many points there are.
     pub fn count(&self) -> usize {
-        self.points.into()
+        self.count.into()
     }
 
-    /// The keys of what touches at each point.
+    /// The keys of the features that touch at each.
     pub fn features(&self) -> &[[u32; 2]] {
         &self.features[..self.count()]
     }
 }
 
 /// The keys of the features that touch at a point.
-pub(super) fn touching(point: &ContactPoint) -> [u32; 2] {
+pub(super) fn keys(point: &ContactPoint) -> [u32; 2] {
     [point.feature_a.key(), point.feature_b.key()]
 }

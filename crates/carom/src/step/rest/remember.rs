@@ -5,7 +5,7 @@
 //! points start with impulses that push and turn both bodies as the old ones did.
 
 use super::Rest;
-use super::owner::touching;
+use super::owner::keys;
 use crate::collide::{ContactPoint, Manifold};
 use crate::math::{DMat3, DVec3, any_tangent};
 use crate::solver::bundle::{POINTS, field};
@@ -55,7 +55,7 @@ impl Rest {
             0.5 * (centers[0] + outward(vector(arm_a)) + centers[1] + outward(vector(arm_b)))
         };
         let mut points = [PastPoint::NONE; POINTS];
-        let touched = self.owners[contact.index()].features();
+        let touched = self.owners[contact.index()].touched.features();
         for (index, (point, &features)) in points.iter_mut().zip(touched).enumerate() {
             let at = |line: usize| field::of_point(index, line);
             let place = place(at(field::ARM_A), at(field::ARM_B));
@@ -110,7 +110,7 @@ impl PastPoint {
 
     /// Whether it was the same features that touched.
     fn is_of(&self, point: &ContactPoint) -> bool {
-        self.features == touching(point)
+        self.features == keys(point)
     }
 }
 

@@ -5,17 +5,16 @@
 //! angular velocity too. Impulses go over from the old contacts to the new ones (`remember.rs`).
 
 use super::crowds::reach_in_crowd;
-use super::owner::Owner;
+use super::owner::{Owner, Touched};
 use super::remember::remembered;
 use super::work::fill;
 use super::{Rest, Span, horizon};
 use crate::bodies::{Bodies, ColliderRow};
-use crate::collide::Manifold;
 use crate::impacts::time_of_impact::{Approach, RestLaw};
-use crate::math::{DMat3, DVec3};
-use crate::solver::bundle::{Lane, field};
+use crate::math::DMat3;
+use crate::solver::bundle::{Lane, NO_CONTACT, field};
 use crate::solver::graph::ContactId;
-use crate::solver::prepare::{Remembered, Side, Terms, lane};
+use crate::solver::prepare::{Side, Terms, fill_lane};
 use crate::step::pairs::Pairs;
 use crate::step::profile::{self, Phase};
 
@@ -36,8 +35,8 @@ const AT_ONCE: usize = 512;
 
 /// What a pair's contacts are to be.
 struct View {
-    /// Each manifold, and its numbers.
-    contacts: Vec<(Manifold, Lane)>,
+    /// What touches in each, and its numbers.
+    contacts: Vec<(Touched, Lane)>,
     /// Whether they see to all of its points.
     is_pressed: bool,
 }
@@ -82,20 +81,23 @@ impl Rest {
         let centers = [a, b].map(|collider| bodies.center_pose(collider).position);
         let past: Vec<_> = pair.contacts.iter().map(|&contact| self.past(contact, centers)).collect();
         let remembered = remembered(&past, &manifolds, margin);
-        let sides = [a, b].map(|collider| self.side(bodies, collider));
+        let mut sides = [a, b].map(|collider| self.side(bodies, collider));
         let poses = [a, b].map(|collider| bodies.center_pose(collider).then_local(&collider.local));
-        let lane = |(manifold, remembered): (Manifold, Remembered)| {
-            let (normal, at) = (manifold.normal, manifold.points()[0].point);
-            let rounded = |number: usize, collider: &ColliderRow, outward: DVec3| {
-                let pose = &poses[number];
-                let local = (pose.inverse_transform_point(at), pose.rotation.conjugate() * outward);
-                Side { roundness: collider.shape.roundness(local.0, local.1), ..sides[number] }
-            };
-            let sides = [rounded(0, a, normal), rounded(1, b, -normal)];
-            let lane = lane(normal, manifold.points(), &sides, &terms, &remembered);
-            (manifold, lane)
-        };
-        Some(View { contacts: manifolds.into_iter().zip(remembered).map(lane).collect(), is_pressed })
+        let mut contacts = Vec::with_capacity(manifolds.len());
+        for (manifold, remembered) in manifolds.iter().zip(&remembered) {
+            let (normal, points) = (manifold.normal, manifold.points());
+            for (side, (collider, outward)) in [(a, normal), (b, -normal)].into_iter().enumerate() {
+                let pose = &poses[side];
+                let place = pose.inverse_transform_point(points[0].point);
+                sides[side].roundness = collider.shape.roundness(place, pose.rotation.conjugate() * outward);
+            }
+            // Filled where it stands: it is too large to be handed on.
+            contacts.push((Touched::of(manifold), NO_CONTACT));
+            if let Some((_, lane)) = contacts.last_mut() {
+                fill_lane(lane, (normal, points), &sides, &terms, remembered);
+            }
+        }
+        Some(View { contacts, is_pressed })
     }
 
     /// A body as contacts see it that touch one of its colliders where that is not round.
@@ -121,7 +123,7 @@ impl Rest {
         let movable = pair.rows().map(|row| bodies.constants[row].is_movable());
         (pair.is_pressed, pair.is_outdated) = (view.is_pressed, false);
         let owner = Owner::of(bodies, pair, index, view.contacts.len());
-        for (number, (manifold, lane)) in view.contacts.iter().enumerate() {
+        for (number, (touched, lane)) in view.contacts.iter().enumerate() {
             let contact = match pair.contacts.get(number) {
                 Some(&contact) => {
                     self.graph.write(contact, lane);
@@ -136,7 +138,7 @@ impl Rest {
             };
             let count = self.owners.len().max(contact.index() + 1);
             self.owners.resize(count, Owner::NOBODY);
-            self.owners[contact.index()] = owner.with_points(manifold);
+            self.owners[contact.index()] = Owner { touched: *touched, ..owner };
             self.bounces.resize(count, false);
             self.bounces[contact.index()] = pair.surface.restitution > 0.0;
         }
