@@ -7,7 +7,7 @@
 //! Conjugate gradients over sweeps (Silcowitz, Niebe and Erleben 2010) carry further, but overshoot where many contacts come
 //! and go: piles that plain sweeps bring to rest went on shaking with them.
 
-use super::islands::{Islands, NONE};
+use super::islands::{Islands, NONE, Pause};
 use super::passes::{Chosen, GLANCES, Spot};
 use super::{Color, Graph};
 use crate::solver::bundle::{Bundle, field};
@@ -35,8 +35,11 @@ pub(crate) struct Effort {
 /// Sweeps between two looks at which bodies agree.
 const ROUND: u32 = 4;
 
-/// Substeps to wait before an island that could not be solved directly is tried again.
+/// Substeps to wait before an island that could not be solved directly is tried again. One of more than so many bodies, for which that
+/// takes long, has to wait twice as long each time, up to a limit: piles are not to be solved, and go on not to be.
 const PAUSE: u32 = 16;
+const PATIENT: usize = 256;
+const LONGEST_PAUSE: u32 = 1024;
 
 /// Contacts from which on islands that are solved directly are shared out among the threads.
 const WORTH_SHARING: usize = 64;
@@ -164,10 +167,10 @@ impl Graph {
         }
         let Islands { of_row, pauses, .. } = &mut self.islands;
         let mut is_paused = vec![false; is_due.len()];
-        for (&island, pause) in of_row.iter().zip(pauses).filter(|(_, pause)| **pause > 0) {
+        for (&island, pause) in of_row.iter().zip(pauses).filter(|(_, pause)| pause.left > 0) {
             if island != NONE && is_due[island as usize] {
                 is_paused[island as usize] = true;
-                *pause -= 1;
+                pause.left -= 1;
             }
         }
         is_due.iter_mut().zip(is_paused).for_each(|(is_due, is_paused)| *is_due &= !is_paused);
@@ -177,19 +180,17 @@ impl Graph {
         let solved = self
             .pool
             .map(&due, grain, |(_, members)| self.solve_at_once(members, velocities, effort, &mobility));
-        for ((_, members), solved) in due.into_iter().zip(solved) {
-            match solved {
-                Some(solved) => {
-                    solved.write(velocities);
-                    self.take_over(&members, &solved);
-                }
-                None => self.pause(&members),
+        for ((island, members), solved) in due.into_iter().zip(solved) {
+            self.pause((island, &members), solved.is_some());
+            if let Some(solved) = solved {
+                solved.write(velocities);
+                self.take_over(&members, &solved);
             }
         }
     }
 
     /// The contacts of each of some islands, by colour and lane.
-    fn members(&self, is_wanted: &[bool]) -> Vec<(usize, Vec<Spot>)> {
+    pub(super) fn members(&self, is_wanted: &[bool]) -> Vec<(usize, Vec<Spot>)> {
         if !is_wanted.contains(&true) {
             return Vec::new();
         }
@@ -223,14 +224,23 @@ impl Graph {
         small.solve(f64::from(effort.exactness)).then_some(small)
     }
 
-    /// Lets the bodies of these contacts be for a while: they were not to be solved. That is kept body by body, since islands change
-    /// whenever a contact comes or goes, as with all that rolls.
-    fn pause(&mut self, members: &[Spot]) {
-        for &(color, lane) in members {
-            let bundle = &self.colors[color].bundles[lane / LANES];
-            for row in [bundle.a[lane % LANES], bundle.b[lane % LANES]] {
-                self.islands.pauses[row as usize] = PAUSE;
-            }
+    /// Lets the bodies of an island be for a while if it was not to be solved. That is kept body by body, since islands change whenever a
+    /// contact comes or goes, as with all that rolls.
+    pub(super) fn pause(&mut self, (island, members): (usize, &[Spot]), is_solved: bool) {
+        let Self { colors, islands, .. } = self;
+        let rows = members.iter().flat_map(|&(color, lane)| {
+            let bundle = &colors[color].bundles[lane / LANES];
+            [bundle.a[lane % LANES] as usize, bundle.b[lane % LANES] as usize]
+        });
+        let rows = rows.filter(|&row| islands.of_row[row] != NONE);
+        let before = rows.clone().map(|row| islands.pauses[row].length).max().unwrap_or(0);
+        let length = match is_solved {
+            true => 0,
+            false if islands.bodies[island] > PATIENT => (2 * before).clamp(PAUSE, LONGEST_PAUSE),
+            false => PAUSE,
+        };
+        for row in rows {
+            islands.pauses[row] = Pause { left: length, length };
         }
     }
 

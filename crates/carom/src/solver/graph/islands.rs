@@ -17,12 +17,21 @@ pub(super) struct Islands {
     pub bodies: Vec<usize>,
     /// Each island with the rows of what its contacts hold it against and nothing moves: the world, and what is driven.
     pub shores: Vec<(usize, u32)>,
-    /// For how many more substeps the body of each row is not worth a direct solve: the last one led nowhere.
-    pub pauses: Vec<u32>,
+    /// Of each row.
+    pub pauses: Vec<Pause>,
     /// How fast the bodies of each island move against each other.
     spreads: Vec<Spread>,
     /// Whether something holds of all rows of each island.
     is_whole: Vec<bool>,
+}
+
+/// How long a body is not worth a direct solve, in substeps.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Pause {
+    /// How long from now on.
+    pub left: u32,
+    /// How long since the last solve, which led nowhere; 0 if it led somewhere.
+    pub length: u32,
 }
 
 /// No island: the world and what is driven.
@@ -33,7 +42,7 @@ impl Islands {
     pub fn rename_row(&mut self, from: usize, to: usize) {
         if let Some(&pause) = self.pauses.get(from) {
             self.pauses[to] = pause;
-            self.pauses[from] = 0;
+            self.pauses[from] = Pause::default();
         }
     }
 
@@ -175,7 +184,7 @@ impl Graph {
             }
         }
         let mut old = std::mem::take(&mut self.islands);
-        old.pauses.resize(rows, 0);
+        old.pauses.resize(rows, Pause::default());
         self.islands = Islands { is_stale: false, of_row, sizes, bodies, shores, ..old };
     }
 }

@@ -226,3 +226,21 @@ fn any_number_of_threads_gives_the_same_bits() {
         assert!(outcome(threads) == alone, "{threads} threads");
     }
 }
+
+#[test]
+fn large_islands_that_are_not_to_be_solved_wait_twice_as_long_each_time() {
+    for (count, expected) in [(300, [16, 32, 64, 0, 16]), (200, [16, 16, 16, 0, 16])] {
+        let mut graph = Graph::default();
+        for row in 1..count {
+            graph.insert([row, row + 1], [true; 2], &numbered(f32::from(row as u16), 1));
+        }
+        graph.find_islands(count as usize + 1);
+        let members = graph.members(&[true]).remove(0).1;
+        assert_eq!(members.len(), count as usize - 1);
+        let lengths = [false, false, false, true, false].map(|is_solved| {
+            graph.pause((0, &members), is_solved);
+            graph.islands.pauses[7].length
+        });
+        assert_eq!(lengths, expected, "{count} bodies");
+    }
+}
