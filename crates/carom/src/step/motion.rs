@@ -89,7 +89,7 @@ pub(crate) fn advance_all(
 }
 
 /// Flights that are worth a thread's while.
-const FLIGHTS: usize = 256;
+const FLIGHTS: usize = 512;
 
 fn is_behind(bodies: &Bodies, row: usize, time: f64) -> bool {
     row != WORLD_ROW && bodies.clocks[row] < time
