@@ -244,3 +244,39 @@ fn large_islands_that_are_not_to_be_solved_wait_twice_as_long_each_time() {
         assert_eq!(lengths, expected, "{count} bodies");
     }
 }
+
+/// The lane of one point between two bodies of 1 kg, the second one above the first, which presses with 3 N·s.
+fn upright(separation: f32) -> Lane {
+    let mut lane = NO_CONTACT;
+    (lane[field::NORMAL + 1], lane[field::TANGENT]) = (1.0, 1.0);
+    (lane[field::GAP], lane[field::WIDEST]) = (separation, separation);
+    lane[field::of_point(0, field::MASS)] = 0.5;
+    lane[field::of_point(0, field::IMPULSE)] = 3.0;
+    lane[field::of_point(0, field::SEPARATION)] = separation;
+    lane
+}
+
+#[test]
+fn overlaps_are_pushed_out_of_what_they_reach_and_impulses_stay() {
+    let mut graph = Graph::default();
+    // Three on each other, of which the lower two overlap; far from them two that touch.
+    let contacts = [([1, 2], -1e-3), ([2, 3], 0.0), ([4, 5], 0.0)]
+        .map(|(rows, separation)| graph.insert(rows, [true; 2], &upright(separation)));
+    let mut rows = vec![Row([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0]); 6];
+    rows[0] = Row::ZERO;
+    let mut pushes = Vec::new();
+    graph.push_out(&mut rows, Limits { allowed: 1e-4, left: 0.5e-4, share: 0.5 }, &mut pushes);
+
+    let heights: Vec<f32> = rows.iter().map(|row| row.0[1]).collect();
+    assert!((heights[2] - heights[1] - 0.5 * 0.95e-3).abs() < 1e-5, "{heights:?}");
+    assert!(heights[3] >= heights[2] - 1e-5, "the third is pushed along: {heights:?}");
+    assert!(heights.iter().sum::<f32>().abs() < 1e-9, "the centre of mass stays: {heights:?}");
+    assert_eq!(heights[4..], [0.0; 2]);
+    let pushing: Vec<ContactId> = pushes.iter().map(|push| push.contact).collect();
+    assert_eq!(pushing, contacts[..2]);
+    assert!(contacts.iter().all(|&id| graph.get(id, field::of_point(0, field::IMPULSE)) == 3.0));
+
+    let mut still = vec![Row::ZERO; 6];
+    graph.push_out(&mut still, Limits { allowed: 2e-3, left: 1e-3, share: 0.5 }, &mut pushes);
+    assert!(pushes.is_empty() && still.iter().all(|row| *row == Row::ZERO), "less than is allowed stays");
+}
