@@ -124,19 +124,20 @@ impl Graph {
             (self.places.len() - 1) as u32
         });
         let target = &mut self.colors[color];
-        let place = target.contacts.len();
+        let number = target.contacts.len();
         for side in (0..2).filter(|&side| movable[side]) {
             target.mark(rows[side], true);
         }
         target.contacts.push(id);
-        if place.is_multiple_of(LANES) {
+        if number.is_multiple_of(LANES) {
+            // Twice the room, as a `Vec` would take, is too much of what is most of a large world.
             if target.bundles.len() == target.bundles.capacity() {
                 target.bundles.reserve_exact((target.bundles.len() / 8).max(4));
             }
             target.bundles.push(Bundle::EMPTY);
         }
-        target.bundles[place / LANES].write(place % LANES, rows, lane);
-        self.places[id as usize] = Place::new(color, place);
+        target.bundles[number / LANES].write(number % LANES, rows, lane);
+        self.places[id as usize] = Place::new(color, number);
         self.islands.is_stale = true;
         ContactId(id)
     }
@@ -153,10 +154,10 @@ impl Graph {
 
     /// Gives a contact other numbers.
     pub fn write(&mut self, id: ContactId, lane: &Lane) {
-        if let Some((color, place)) = self.place(id) {
-            let bundle = &mut self.colors[color].bundles[place / LANES];
-            let (rows, _) = bundle.read(place % LANES);
-            bundle.write(place % LANES, rows, lane);
+        if let Some((color, number)) = self.place(id) {
+            let bundle = &mut self.colors[color].bundles[number / LANES];
+            let (rows, _) = bundle.read(number % LANES);
+            bundle.write(number % LANES, rows, lane);
         }
     }
 

@@ -24,8 +24,8 @@ use bounds::{Bounds, present_bounds, swept_bounds};
 use forecast::Forecast;
 use tree::Tree;
 
-/// Room is kept for so many pairs that a search finds.
-const ROOM: usize = 4096;
+/// Lists of pairs that only a world's first step fills keep room for so many.
+pub(super) const ROOM: usize = 4096;
 
 /// A pair of colliders, the one of the lower slot first.
 pub(crate) type ColliderPair = (u32, u32);

@@ -5,15 +5,13 @@
 
 use super::{Entry, Pairs};
 use crate::bodies::{Bodies, WORLD_ROW};
+use crate::step::broad_phase::ROOM;
 use crate::step::profile::{self, Phase};
 
 /// A limit allows for a turn of this angle (rad) and for a path of this share of the body's size, or for what the body's
 /// speed takes it to in so many steps more.
 const SHARE: f64 = 0.02;
 const STEPS: f64 = 1.0;
-
-/// Room is kept for so many that join at once.
-const ROOM: usize = 4096;
 
 /// Limits, and the pairs that could meet within them.
 #[derive(Default)]
