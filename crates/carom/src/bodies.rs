@@ -10,6 +10,8 @@
 //! Slots are stable and named by ids; rows are dense, so a step walks them in order. An id carries the generation of
 //! its slot, hence an id of a removed body never names another one.
 
+mod forces;
+
 use crate::body::{Body, Collider, Motion};
 use crate::error::Invalid;
 use crate::filter::Filter;
@@ -19,8 +21,11 @@ use crate::ledger::journal::Journal;
 use crate::mass::BodyMass;
 use crate::material::Material;
 use crate::math::{DQuat, DVec3, Pose, Quat, Vec3};
+use crate::room::Room;
 use crate::shape::Shape;
 use crate::step::motion::Plan;
+use forces::Forces;
+use smallvec::SmallVec;
 
 /// Names one body of one world, also after it has been removed: an id is never given twice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -96,9 +101,9 @@ pub(crate) struct Record {
     pub row: usize,
     pub activity: Activity,
     /// Keys into [`Bodies::colliders`].
-    pub colliders: Vec<u32>,
+    pub colliders: SmallVec<[u32; 4]>,
     /// Pose of the centre of mass where it does not follow from a row.
-    pub fixed_pose: Pose,
+    pub fixed_pose: Option<Box<Pose>>,
 }
 
 /// A collider as the phases of a step use it.
@@ -157,8 +162,8 @@ pub(crate) struct Bodies {
     pub plans: Vec<Option<Plan>>,
     /// What is noted for the ledger, if there is one.
     pub journal: Option<Box<Journal>>,
-    /// Force (N) and torque (N·m) that the user applies during the next step.
-    pub forces: Vec<(DVec3, DVec3)>,
+    /// What the user pushes bodies with during the next step.
+    pub forces: Forces,
     /// The slot of each row.
     pub slot_of_row: Vec<u32>,
     colliders: Vec<Option<ColliderRow>>,
@@ -181,7 +186,7 @@ impl Bodies {
             sleeps: vec![false],
             plans: vec![None],
             journal: None,
-            forces: vec![(DVec3::ZERO, DVec3::ZERO)],
+            forces: Forces::default(),
             slot_of_row: vec![u32::MAX],
             colliders: Vec::new(),
             free_colliders: Vec::new(),
@@ -196,7 +201,7 @@ impl Bodies {
             Err(error) => (BodyMass::INFINITE, Activity::Quarantined, Err(error)),
         };
         let index = self.free_slots.pop().unwrap_or_else(|| {
-            self.slots.push(Slot { generation: 0, record: None });
+            self.slots.put(Slot { generation: 0, record: None });
             (self.slots.len() - 1) as u32
         });
         let rotation = description.rotation.as_dquat().normalize();
@@ -219,8 +224,9 @@ impl Bodies {
                 })
                 .collect()
         } else {
-            Vec::new()
+            SmallVec::new()
         };
+        let fixed_pose = (row == WORLD_ROW).then(|| Box::new(center));
         let state = BodyState {
             position: description.position,
             rotation: description.rotation,
@@ -229,7 +235,7 @@ impl Bodies {
             asleep: false,
         };
         let slot = &mut self.slots[index as usize];
-        slot.record = Some(Record { description, mass, state, row, activity, colliders, fixed_pose: center });
+        slot.record = Some(Record { description, mass, state, row, activity, colliders, fixed_pose });
         (BodyId { index, generation: slot.generation }, verdict)
     }
 
@@ -241,26 +247,25 @@ impl Bodies {
             constants.angular_damping = description.angular_damping;
             constants.gravity_factor = description.gravity_factor;
         }
-        self.states.push(RigidState {
+        self.states.put(RigidState {
             position: center.position,
             rotation: center.rotation,
             velocity: description.linear_velocity.as_dvec3(),
             angular_momentum: constants.inertia(center.rotation) * spin,
         });
         self.touch();
-        self.constants.push(constants);
-        self.influences.push(Influence::default());
-        self.clocks.push(0.0);
-        self.ways.push((0.0, 0.0));
+        self.constants.put(constants);
+        self.influences.put(Influence::default());
+        self.clocks.put(0.0);
+        self.ways.put((0.0, 0.0));
         let reach =
             |collider: &Collider| collider.shape.reach(collider.pose.inverse_transform_point(mass.center));
-        self.grains.push(description.colliders.iter().map(reach).fold(f64::INFINITY, f64::min));
-        self.paces.push((0.0, 0.0));
-        self.courses.push(0);
-        self.sleeps.push(false);
-        self.plans.push(None);
-        self.forces.push((DVec3::ZERO, DVec3::ZERO));
-        self.slot_of_row.push(slot);
+        self.grains.put(description.colliders.iter().map(reach).fold(f64::INFINITY, f64::min));
+        self.paces.put((0.0, 0.0));
+        self.courses.put(0);
+        self.sleeps.put(false);
+        self.plans.put(None);
+        self.slot_of_row.put(slot);
         self.states.len() - 1
     }
 
@@ -287,7 +292,7 @@ impl Bodies {
             self.colliders[key as usize] = Some(entry);
             key
         } else {
-            self.colliders.push(Some(entry));
+            self.colliders.put(Some(entry));
             (self.colliders.len() - 1) as u32
         }
     }
@@ -328,7 +333,7 @@ impl Bodies {
         if let Some(journal) = &mut self.journal {
             journal.swap_remove(row);
         }
-        self.forces.swap_remove(row);
+        self.forces.swap_remove(row, self.states.len());
         self.slot_of_row.swap_remove(row);
         let Some(&moved) = self.slot_of_row.get(row) else { return };
         if let Some(record) = &mut self.slots[moved as usize].record {
@@ -342,8 +347,8 @@ impl Bodies {
     }
 
     /// Takes a body out of the simulation where it was last seen whole; returns the keys of its colliders.
-    pub fn quarantine(&mut self, slot: u32) -> Vec<u32> {
-        let Some(record) = self.slots[slot as usize].record.as_mut() else { return Vec::new() };
+    pub fn quarantine(&mut self, slot: u32) -> SmallVec<[u32; 4]> {
+        let Some(record) = self.slots[slot as usize].record.as_mut() else { return SmallVec::new() };
         record.activity = Activity::Quarantined;
         record.state.linear_velocity = Vec3::ZERO;
         record.state.angular_velocity = Vec3::ZERO;
@@ -411,7 +416,8 @@ impl Bodies {
     #[inline]
     pub fn center_pose(&self, collider: &ColliderRow) -> Pose {
         if collider.row == WORLD_ROW {
-            return self.record(collider.slot).map_or(Pose::IDENTITY, |record| record.fixed_pose);
+            let fixed = self.record(collider.slot).and_then(|record| record.fixed_pose.as_deref());
+            return fixed.copied().unwrap_or(Pose::IDENTITY);
         }
         let state = &self.states[collider.row];
         Pose::new(state.position, state.rotation)
@@ -437,7 +443,9 @@ impl Bodies {
     pub fn place(&mut self, slot: u32, position: DVec3, rotation: DQuat) {
         let Some(record) = self.slots[slot as usize].record.as_mut() else { return };
         let center = Pose::new(position + rotation * record.mass.center, rotation);
-        record.fixed_pose = center;
+        if let Some(fixed) = &mut record.fixed_pose {
+            **fixed = center;
+        }
         record.state.position = position;
         record.state.rotation = rotation.as_quat();
         let row = record.row;

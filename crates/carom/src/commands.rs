@@ -39,7 +39,7 @@ impl<'world> BodyMut<'world> {
     pub fn add_force(&mut self, force: DVec3) -> Result<(), Invalid> {
         let force = Self::finite("force", force)?;
         let row = self.wake_row();
-        self.world.bodies.forces[row].0 += force;
+        self.world.bodies.forces.add(row, (force, DVec3::ZERO));
         Ok(())
     }
 
@@ -51,8 +51,7 @@ impl<'world> BodyMut<'world> {
         let (force, point) = (Self::finite("force", force)?, Self::finite("point", point)?);
         let row = self.wake_row();
         let arm = point - self.world.bodies.states[row].position;
-        self.world.bodies.forces[row].0 += force;
-        self.world.bodies.forces[row].1 += arm.cross(force);
+        self.world.bodies.forces.add(row, (force, arm.cross(force)));
         Ok(())
     }
 
@@ -63,7 +62,7 @@ impl<'world> BodyMut<'world> {
     pub fn add_torque(&mut self, torque: DVec3) -> Result<(), Invalid> {
         let torque = Self::finite("torque", torque)?;
         let row = self.wake_row();
-        self.world.bodies.forces[row].1 += torque;
+        self.world.bodies.forces.add(row, (DVec3::ZERO, torque));
         Ok(())
     }
 
@@ -144,7 +143,7 @@ impl<'world> BodyMut<'world> {
         let row = self.wake_row();
         let (id, world) = (self.id, &mut *self.world);
         world.bodies.place(id.index() as u32, position, rotation.normalize());
-        let keys = world.bodies.get(id).map_or(Vec::new(), |record| record.colliders.clone());
+        let keys = world.bodies.get(id).map_or_else(Default::default, |record| record.colliders.clone());
         world.forget_colliders(&keys, row);
         world.enlist(id);
         self.publish(row);

@@ -41,6 +41,7 @@ pub mod impulse;
 mod bodies;
 mod boxes;
 mod commands;
+mod room;
 mod step;
 mod world;
 

@@ -62,7 +62,7 @@ pub(crate) fn step(world: &mut World, time: f64) {
     finish::quarantine(world);
     finish::sense(world);
     finish::publish(&mut world.bodies);
-    world.report.contacts = world.rest.count_touching(law);
+    world.report.contacts = world.rest.count_touching(&world.bodies, &world.pairs, law);
 
     world.time = start + time;
     world.ledger.close(&mut world.bodies, (time, world.time));

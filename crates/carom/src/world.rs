@@ -155,7 +155,7 @@ impl World {
     }
 
     pub(crate) fn enlist(&mut self, id: BodyId) {
-        let keys = self.bodies.get(id).map_or(Vec::new(), |record| record.colliders.clone());
+        let keys = self.bodies.get(id).map_or_else(Default::default, |record| record.colliders.clone());
         for key in keys {
             self.broad_phase.insert(&self.bodies, key);
         }

@@ -256,7 +256,7 @@ impl<'a> Instant<'a> {
     /// Adds the places of a manifold; up to a separation of `touching` they touch.
     fn add(&mut self, index: usize, manifold: &Manifold, rest_speed: f64, touching: f64) {
         let pair = &self.pairs[index];
-        let (rows, surface) = (pair.rows(), pair.surface);
+        let (rows, surface) = (pair.rows(), pair.surface(self.bodies));
         let Some(centers) = self.centers(index) else { return };
         let movers = rows.map(|row| self.mover(row));
         for contact in manifold.points() {

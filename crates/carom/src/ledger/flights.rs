@@ -46,7 +46,7 @@ pub(crate) fn flown(bodies: &mut Bodies, row: usize, before: &RigidState, time: 
         }
         return;
     }
-    let (push, torque) = bodies.forces[row];
+    let (push, torque) = bodies.forces.of(row);
     let flight = Flight {
         before,
         after: &bodies.states[row],
@@ -77,7 +77,7 @@ pub(crate) fn minds_drifting(bodies: &Bodies, row: usize) -> bool {
     let Some(journal) = bodies.journal.as_deref() else { return false };
     journal.gravity != DVec3::ZERO
         || journal.paths[row] != Path::Free
-        || bodies.forces[row] != (DVec3::ZERO, DVec3::ZERO)
+        || bodies.forces.of(row) != (DVec3::ZERO, DVec3::ZERO)
 }
 
 /// Whether gravity is all that acts on a body.
@@ -280,7 +280,7 @@ pub(crate) fn set_out(bodies: &mut Bodies, row: usize, before: &RigidState, (tim
     journal.passages[row] = Passage { way, turn };
 
     let (posts, tally) = (&mut journal.posts, &mut journal.tallies[row]);
-    let (mut push, torque) = bodies.forces[row];
+    let (mut push, torque) = bodies.forces.of(row);
     if constants.inverse_mass == 0.0 {
         push = DVec3::ZERO;
     }

@@ -75,6 +75,11 @@ pub(crate) struct Island {
 }
 
 impl Island {
+    /// No contacts yet, and room for so many.
+    pub fn with_room(contacts: usize) -> Self {
+        Self { contacts: Vec::with_capacity(contacts), ..Self::default() }
+    }
+
     /// Adds the contact in a lane. `mobility` tells how the body of a row answers to impulses, if it does.
     pub fn add(
         &mut self,

@@ -21,6 +21,7 @@ pub(crate) use wrench::Wrench;
 
 use super::bundle::{Bundle, Lane, NO_CONTACT, field};
 use super::lanes::{LANES, Machine};
+use crate::room::Room;
 use crate::step::pool::Pool;
 use islands::Islands;
 use std::sync::Arc;
@@ -120,7 +121,7 @@ impl Graph {
             self.colors.push(Color::default());
         }
         let id = self.free.pop().unwrap_or_else(|| {
-            self.places.push(Place::NOWHERE);
+            self.places.put(Place::NOWHERE);
             (self.places.len() - 1) as u32
         });
         let target = &mut self.colors[color];
@@ -128,13 +129,9 @@ impl Graph {
         for side in (0..2).filter(|&side| movable[side]) {
             target.mark(rows[side], true);
         }
-        target.contacts.push(id);
+        target.contacts.put(id);
         if number.is_multiple_of(LANES) {
-            // Twice the room, as a `Vec` would take, is too much of what is most of a large world.
-            if target.bundles.len() == target.bundles.capacity() {
-                target.bundles.reserve_exact((target.bundles.len() / 8).max(4));
-            }
-            target.bundles.push(Bundle::EMPTY);
+            target.bundles.put(Bundle::EMPTY);
         }
         target.bundles[number / LANES].write(number % LANES, rows, lane);
         self.places[id as usize] = Place::new(color, number);

@@ -18,6 +18,7 @@ mod tree;
 
 use crate::bodies::{Bodies, ColliderRow, WORLD_ROW};
 use crate::math::DVec3;
+use crate::room::Room;
 use crate::shape::Shape;
 use crate::step::profile::{self, Phase};
 use bounds::{Bounds, present_bounds, swept_bounds};
@@ -74,9 +75,7 @@ impl BroadPhase {
 
     pub fn insert(&mut self, bodies: &Bodies, key: u32) {
         let Some(collider) = bodies.collider(key) else { return };
-        if self.boxes.len() <= key as usize {
-            self.boxes.resize(key as usize + 1, Bounds::NOTHING);
-        }
+        self.boxes.lengthen(key as usize + 1, Bounds::NOTHING);
         self.boxes[key as usize] = Bounds::NOTHING;
         if collider.row != WORLD_ROW {
             // Gets its box when pairs are looked for.
@@ -108,7 +107,7 @@ impl BroadPhase {
     }
 
     fn grow(&mut self, rows: usize) {
-        self.forecasts.resize(self.forecasts.len().max(rows), Forecast::NONE);
+        self.forecasts.lengthen(rows, Forecast::NONE);
     }
 
     /// Finds the pairs that are new because of new boxes in a step of `time` seconds.
@@ -186,7 +185,7 @@ impl BroadPhase {
             let fat = swept.union(swept.shifted(ahead)).grown(MARGIN * collider.reach).or_everything();
             self.boxes[key as usize] = fat;
             self.moving.set(key, &fat);
-            self.boxed.push(key);
+            self.boxed.put(key);
             let room = fat.room_around(&here).min(fat.room_around(&here.shifted(forecast.way())));
             forecast.allow(room, (turned, collider.spin_reach));
         }

@@ -285,7 +285,7 @@ impl<'a> Events<'a> {
         now.fastest = now.fastest.max(closing);
         let (hits, fastest) = (now.hits, now.fastest);
         let pair = &self.pairs[index];
-        let rattles = if pair.surface.restitution > 0.0 {
+        let rattles = if pair.bounces {
             hits >= RATTLE_HITS && closing < RATTLE_SPEED * fastest
         } else {
             hits > 0 && closing < RATTLE_SPEED * fastest.max(self.law.rest_speed())

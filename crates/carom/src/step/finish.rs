@@ -46,6 +46,6 @@ pub(crate) fn sense(world: &mut World) {
 pub(crate) fn publish(bodies: &mut Bodies) {
     for row in bodies.rows() {
         bodies.publish(row);
-        bodies.forces[row] = Default::default();
     }
+    bodies.forces.clear();
 }

@@ -35,7 +35,7 @@ pub(crate) fn set_pace(bodies: &mut Bodies, row: usize, end: f64) {
 #[inline]
 pub(crate) fn free_influence(bodies: &Bodies, row: usize, gravity: DVec3) -> Influence {
     let constants = &bodies.constants[row];
-    let (force, torque) = bodies.forces[row];
+    let (force, torque) = bodies.forces.of(row);
     let torque = if constants.is_movable() { torque } else { DVec3::ZERO };
     Influence { acceleration: gravity * constants.gravity_factor + force * constants.inverse_mass, torque }
 }

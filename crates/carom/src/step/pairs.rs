@@ -20,6 +20,7 @@ mod tests;
 mod watch;
 
 use crate::bodies::{Bodies, WORLD_ROW};
+use crate::room::Room;
 use crate::step::broad_phase::{BroadPhase, ColliderPair};
 use crate::step::profile::{self, Phase};
 use blocks::Blocks;
@@ -127,7 +128,8 @@ impl Pairs {
         let entry = Entry { colliders, index };
         for row in rows.into_iter().filter(|&row| row != WORLD_ROW) {
             let place = self.find(row, colliders).unwrap_or_else(|place| place);
-            self.of_row[row].insert(place, entry);
+            self.of_row[row].put(entry);
+            self.of_row[row][place..].rotate_right(1);
         }
         self.watch(entry);
         Some(index as usize)
@@ -178,7 +180,7 @@ impl Pairs {
         let pair = &mut self[index];
         if pair.present == 0 {
             pair.present = next as u32;
-            self.presents.push(Present::NOTHING);
+            self.presents.put(Present::NOTHING);
         }
         let place = self[index].present as usize;
         &mut self.presents[place]
@@ -256,7 +258,7 @@ impl std::ops::IndexMut<usize> for Pairs {
     fn index_mut(&mut self, index: usize) -> &mut Pair {
         let pair = self.list[index].as_mut().expect("a pair's index is used as long as there is the pair");
         if !std::mem::replace(&mut pair.is_changed, true) {
-            self.changed.push(index as u32);
+            self.changed.put(index as u32);
         }
         pair
     }

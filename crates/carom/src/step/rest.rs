@@ -37,6 +37,7 @@ mod work;
 use crate::bodies::{Bodies, WORLD_ROW};
 use crate::impacts::time_of_impact::{Approach, Kept, RestLaw};
 use crate::math::DVec3;
+use crate::room::Room;
 use crate::solver::bundle::field;
 use crate::solver::graph::{ContactId, Graph};
 use crate::solver::lanes::Machine;
@@ -191,7 +192,7 @@ impl Rest {
         pairs[index].rests = true;
         self.renew(bodies, pairs, index, at);
         if pairs[index].rests {
-            self.resting.push(index);
+            self.resting.put(index);
         }
     }
 
@@ -213,13 +214,14 @@ impl Rest {
     }
 
     /// How many pairs of bodies touch.
-    pub fn count_touching(&self, law: RestLaw) -> usize {
+    pub fn count_touching(&self, bodies: &Bodies, pairs: &Pairs, law: RestLaw) -> usize {
         let (mut alone, mut shared) = (0, Vec::new());
         for contact in self.graph.within(law.contact_margin() as f32) {
-            let Owner { slots, is_alone, .. } = self.owners[contact.index()];
+            let Owner { pair, is_alone, .. } = self.owners[contact.index()];
             if is_alone {
                 alone += 1;
             } else {
+                let slots = pairs[pair as usize].slots(bodies);
                 shared.push((slots[0].min(slots[1]), slots[0].max(slots[1])));
             }
         }
@@ -240,9 +242,9 @@ impl Rest {
     /// stop it at the end of the substep, without a bounce. It is 0 where few bodies rest against each other, so that these get
     /// their impulses at the instant; and for what bounces without loss, or bears no load (balls that just touch in a row).
     pub fn left_speed(&self, bodies: &Bodies, pair: &Pair, law: RestLaw) -> f64 {
-        let restitution = pair.surface.restitution;
+        let loses = || pair.surface(bodies).restitution < 1.0;
         let is_left = self.crowds.has_either(pair.rows())
-            && (restitution == 0.0 || (restitution < 1.0 && self.bears_load(bodies, pair, law)));
+            && (!pair.bounces || (loses() && self.bears_load(bodies, pair, law)));
         if is_left { PRESSED * grain(bodies, pair) / law.substep } else { 0.0 }
     }
 
@@ -265,7 +267,7 @@ impl Rest {
     /// Which points of a pair that rests its contacts see to, if it is asked `since` some time within the step.
     pub fn kept(&self, bodies: &Bodies, pair: &Pair, (law, since): (RestLaw, f64)) -> Kept {
         let grain = grain(bodies, pair);
-        let pressed = if pair.surface.restitution > 0.0 { 0.0 } else { PRESSED * grain / law.substep };
+        let pressed = if pair.bounces { 0.0 } else { PRESSED * grain / law.substep };
         Kept { horizon: horizon(pair, grain, law), since, pressed }
     }
 
@@ -314,11 +316,7 @@ fn grain(bodies: &Bodies, pair: &Pair) -> f64 {
 /// be left to deal with is stopped by them, at the end of the substep in which it touches. Faster points, and all that bounce,
 /// strike at their own instant.
 fn horizon(pair: &Pair, grain: f64, law: RestLaw) -> f64 {
-    if pair.surface.restitution > 0.0 {
-        law.contact_margin()
-    } else {
-        law.contact_margin().max(PRESSED * grain)
-    }
+    if pair.bounces { law.contact_margin() } else { law.contact_margin().max(PRESSED * grain) }
 }
 
 /// Whether a body keeps its neighbours awake: it is awake itself, and moves or can be moved.

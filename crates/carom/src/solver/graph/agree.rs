@@ -216,7 +216,7 @@ impl Graph {
         effort: Effort,
         mobility: impl Fn(u32) -> Option<Mobility>,
     ) -> Option<direct::Island> {
-        let mut small = direct::Island::default();
+        let mut small = direct::Island::with_room(members.len());
         for &(color, lane) in members {
             let bundle = &self.colors[color].bundles[lane / LANES];
             small.add(bundle, lane % LANES, velocities, &mobility);

@@ -10,6 +10,7 @@ mod node;
 use super::bounds::Bounds;
 use crate::boxes::{Local, Query, WIDTH};
 use crate::math::DVec3;
+use crate::room::Room;
 use glam::Vec3;
 use node::{NONE, Node};
 
@@ -148,9 +149,7 @@ impl Tree {
     }
 
     fn insert(&mut self, key: u32, bounds: Local) {
-        if self.places.len() <= key as usize {
-            self.places.resize(key as usize + 1, (NONE, 0));
-        }
+        self.places.lengthen(key as usize + 1, (NONE, 0));
         let mut at = self.root;
         while !self.nodes[at as usize].holds_leaves {
             let node = &self.nodes[at as usize];
@@ -217,7 +216,7 @@ impl Tree {
 
     fn new_node(&mut self, holds_leaves: bool) -> u32 {
         let node = self.free.pop().unwrap_or_else(|| {
-            self.nodes.push(Node::new(holds_leaves));
+            self.nodes.put(Node::new(holds_leaves));
             (self.nodes.len() - 1) as u32
         });
         self.nodes[node as usize] = Node::new(holds_leaves);

@@ -19,8 +19,10 @@ pub(crate) struct Pair {
     pub spin_reach: [f64; 2],
     /// Separation up to which the surfaces count as touching, m.
     pub tolerance: f64,
-    pub surface: Surface,
     pub sensor: bool,
+    /// Whether there is restitution, and static friction.
+    pub bounces: bool,
+    pub rubs: bool,
     /// Whether the pair rests: it has contacts then.
     pub rests: bool,
     pub contacts: SmallVec<[ContactId; 4]>,
@@ -84,13 +86,15 @@ impl Present {
 impl Pair {
     pub(super) fn new(bodies: &Bodies, colliders: ColliderPair) -> Option<Self> {
         let (a, b) = (bodies.collider(colliders.0)?, bodies.collider(colliders.1)?);
+        let surface = Surface::between(&a.material, &b.material);
         Some(Self {
             colliders,
             rows: [a.row, b.row].map(|row| row as u32),
             spin_reach: [a.spin_reach, b.spin_reach],
             tolerance: tolerance(a, b),
-            surface: Surface::between(&a.material, &b.material),
             sensor: a.sensor || b.sensor,
+            bounces: surface.restitution > 0.0,
+            rubs: surface.static_friction > 0.0,
             rests: false,
             contacts: SmallVec::new(),
             is_pressed: false,
@@ -107,6 +111,18 @@ impl Pair {
     #[inline]
     pub fn rows(&self) -> [usize; 2] {
         self.rows.map(|row| row as usize)
+    }
+
+    /// The slots of its bodies.
+    pub fn slots(&self, bodies: &Bodies) -> [u32; 2] {
+        let (a, b) = self.colliders;
+        [a, b].map(|key| bodies.collider(key).map_or(0, |collider| collider.slot))
+    }
+
+    /// What the materials of its colliders make together.
+    pub fn surface(&self, bodies: &Bodies) -> Surface {
+        let material = |key: u32| bodies.collider(key).map(|it| it.material).unwrap_or_default();
+        Surface::between(&material(self.colliders.0), &material(self.colliders.1))
     }
 
     /// The body of row `last` has got another row.

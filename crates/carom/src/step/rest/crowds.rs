@@ -64,7 +64,7 @@ impl Crowds {
 
     /// Whether contacts see to all points of a pair that rests.
     pub fn press(&self, bodies: &Bodies, pair: &Pair, law: RestLaw) -> bool {
-        pair.surface.restitution == 0.0
+        !pair.bounces
             && self.has_either(pair.rows())
             && approach(bodies, pair, law.substep) <= PRESSED * grain(bodies, pair)
     }

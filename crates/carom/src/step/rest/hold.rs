@@ -115,7 +115,7 @@ impl Rest {
     fn find_rough(&self, pairs: &Pairs, is_rough: &mut [bool]) {
         for &index in &self.resting {
             let pair = &pairs[index];
-            let rubs = pair.surface.static_friction > 0.0;
+            let rubs = pair.rubs;
             pair.rows().into_iter().for_each(|row| is_rough[row] |= rubs);
         }
     }

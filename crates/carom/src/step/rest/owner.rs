@@ -10,24 +10,20 @@ use crate::step::pairs::Pair;
 pub(super) struct Owner {
     /// The pair's index.
     pub pair: u32,
-    /// The slots of its bodies, and whether these have no other contact with each other.
-    pub slots: [u32; 2],
+    /// Whether its bodies have no other contact with each other.
     pub is_alone: bool,
     pub touched: Touched,
 }
 
 impl Owner {
     /// Of a contact that is no more.
-    pub const NOBODY: Owner =
-        Owner { pair: u32::MAX, slots: [u32::MAX; 2], is_alone: false, touched: Touched::NOTHING };
+    pub const NOBODY: Owner = Owner { pair: u32::MAX, is_alone: false, touched: Touched::NOTHING };
 
     /// The owner of the contacts of a pair, of which it has so many.
     pub fn of(bodies: &Bodies, pair: &Pair, index: usize, contacts: usize) -> Self {
-        let (a, b) = pair.colliders;
-        let slots = [a, b].map(|key| bodies.collider(key).map_or(0, |collider| collider.slot));
         let is_single = |slot: u32| bodies.record(slot).is_some_and(|record| record.colliders.len() == 1);
-        let is_alone = contacts == 1 && slots.into_iter().all(is_single);
-        Self { pair: index as u32, slots, is_alone, touched: Touched::NOTHING }
+        let is_alone = contacts == 1 && pair.slots(bodies).into_iter().all(is_single);
+        Self { pair: index as u32, is_alone, touched: Touched::NOTHING }
     }
 }
 

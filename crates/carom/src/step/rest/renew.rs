@@ -12,6 +12,7 @@ use super::{Rest, Span, horizon};
 use crate::bodies::{Bodies, ColliderRow};
 use crate::impacts::time_of_impact::{Approach, RestLaw};
 use crate::math::DMat3;
+use crate::room::Room;
 use crate::solver::bundle::{Lane, NO_CONTACT, field};
 use crate::solver::graph::ContactId;
 use crate::solver::prepare::{Side, Terms, fill_lane};
@@ -77,7 +78,8 @@ impl Rest {
         approach.manifolds(pairs, span.from, reach, &mut manifolds);
         manifolds.retain(|manifold| !manifold.points().is_empty());
 
-        let terms = Terms { surface: pair.surface, margin, horizon: horizon(pair, grain, law), is_pressed };
+        let terms =
+            Terms { surface: pair.surface(bodies), margin, horizon: horizon(pair, grain, law), is_pressed };
         let centers = [a, b].map(|collider| bodies.center_pose(collider).position);
         let past: Vec<_> = pair.contacts.iter().map(|&contact| self.past(contact, centers)).collect();
         let remembered = remembered(&past, &manifolds, margin);
@@ -137,10 +139,10 @@ impl Rest {
                 }
             };
             let count = self.owners.len().max(contact.index() + 1);
-            self.owners.resize(count, Owner::NOBODY);
+            self.owners.lengthen(count, Owner::NOBODY);
             self.owners[contact.index()] = Owner { touched: *touched, ..owner };
-            self.bounces.resize(count, false);
-            self.bounces[contact.index()] = pair.surface.restitution > 0.0;
+            self.bounces.lengthen(count, false);
+            self.bounces[contact.index()] = pair.bounces;
         }
         for contact in pair.contacts.drain(view.contacts.len()..) {
             self.release(contact);

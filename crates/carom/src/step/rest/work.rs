@@ -3,6 +3,7 @@
 //! Kept from substep to substep, so that nothing is asked of the allocator while all lies still.
 
 use crate::math::DVec3;
+use crate::room::Room;
 use crate::solver::graph::Wrench;
 use crate::solver::lanes::Row;
 
@@ -53,9 +54,9 @@ impl Work {
         fill(&mut self.is_pushed, count, false);
         fill(&mut self.impulses, count, DVec3::ZERO);
         fill(&mut self.turns, count, DVec3::ZERO);
-        self.gains.resize(count, [DVec3::ZERO; 2]);
-        self.centers.resize(count, DVec3::ZERO);
-        self.changes.resize(count, Change::default());
+        self.gains.lengthen(count, [DVec3::ZERO; 2]);
+        self.centers.lengthen(count, DVec3::ZERO);
+        self.changes.lengthen(count, Change::default());
     }
 }
 
@@ -68,5 +69,5 @@ pub(super) fn copy<T: Copy>(list: &mut Vec<T>, other: &[T]) {
 /// Gives a list so many values.
 pub(super) fn fill<T: Clone>(list: &mut Vec<T>, count: usize, value: T) {
     list.clear();
-    list.resize(count, value);
+    list.lengthen(count, value);
 }
