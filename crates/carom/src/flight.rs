@@ -83,6 +83,9 @@ pub(crate) struct Constants {
     rotor: Rotor,
 }
 
+/// By what angle (rad) a body turns at most for which the coarser of two limits of its spin will do.
+const HARDLY_TURNED: f64 = 1e-4;
+
 /// How a body turns: its inertia and the split of its energy.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Rotor {
@@ -195,6 +198,16 @@ impl Constants {
         1.0 / self.inverse_mass
     }
 
+    /// How fast an angular momentum turns the body, rad/s: `|I⁻¹Rᵀ L|`, without the driven spin.
+    #[inline]
+    pub fn free_spin_speed(&self, rotation: DQuat, momentum: DVec3) -> f64 {
+        if self.rotor.is_isotropic() {
+            return momentum.length() * self.rotor.inverse_moments.x;
+        }
+        let local = (rotation * self.rotor.principal).conjugate() * momentum;
+        (local * self.rotor.inverse_moments).length()
+    }
+
     /// `ω = R I⁻¹Rᵀ L` of an angular momentum, without the driven spin, rad/s.
     #[inline]
     pub fn free_spin(&self, rotation: DQuat, momentum: DVec3) -> DVec3 {
@@ -259,7 +272,8 @@ impl Constants {
 
     /// A speed of turning (rad/s) that the body does not exceed within `time` seconds.
     ///
-    /// While it turns freely `ω² ≤ 2E·a_max` (from `2E = ω·Iω`) and `ω ≤ a_max·|L|`; a torque adds `a_max·|T|` a second.
+    /// While it turns freely `ω ≤ a_max·|L|`, and `ω² ≤ 2E·a_max` (from `2E = ω·Iω`), which is never more; a torque adds `a_max·|T|` a
+    /// second.
     #[inline]
     pub fn spin_limit(&self, state: &RigidState, influence: &Influence, time: f64) -> f64 {
         if !self.spins(state.angular_momentum) && influence.torque == DVec3::ZERO {
@@ -268,13 +282,15 @@ impl Constants {
         self.spin_limit_of_turning(state, influence, time)
     }
 
+    #[inline(never)]
     fn spin_limit_of_turning(&self, state: &RigidState, influence: &Influence, time: f64) -> f64 {
-        let largest = self.rotor.inverse_moments.max_element();
-        let turning = self.angular_velocity(state);
-        let free = (largest * turning.dot(state.angular_momentum).max(0.0)).sqrt();
-        free.min(largest * state.angular_momentum.length())
-            + self.driven_spin.length()
-            + largest * influence.torque.length() * time
+        let (largest, momentum) = (self.rotor.inverse_moments.max_element(), state.angular_momentum);
+        let mut free = largest * momentum.length();
+        if free * time > HARDLY_TURNED && !self.rotor.is_isotropic() {
+            let local = (state.rotation * self.rotor.principal).conjugate() * momentum;
+            free = free.min((largest * (local * local).dot(self.rotor.inverse_moments)).sqrt());
+        }
+        free + self.driven_spin.length() + largest * influence.torque.length() * time
     }
 }
 

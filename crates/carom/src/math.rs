@@ -74,9 +74,11 @@ const INVERSE_FACTORIALS: [f64; 18] = {
 ///
 /// Reduction by quarter turns (Cody and Waite 1980), then Taylor series on |x| ≤ π/4.
 pub fn sin_cos(angle: f64) -> (f64, f64) {
+    // In double precision, what is added to this is rounded to a whole number.
+    const ROUNDED: f64 = 1.5 * (1_u64 << 52) as f64;
     const HALF_PI_HIGH: f64 = 1.570_796_326_734_125_6;
     const HALF_PI_LOW: f64 = 6.077_100_506_506_192e-11;
-    let quarter = (angle * std::f64::consts::FRAC_2_PI).round();
+    let quarter = (angle * std::f64::consts::FRAC_2_PI + ROUNDED) - ROUNDED;
     let x = (angle - quarter * HALF_PI_HIGH) - quarter * HALF_PI_LOW;
     let xx = x * x;
     let (mut sine, mut cosine) = (0.0, 0.0);
@@ -85,7 +87,7 @@ pub fn sin_cos(angle: f64) -> (f64, f64) {
         cosine = INVERSE_FACTORIALS[2 * n] - cosine * xx;
     }
     sine *= x;
-    match (quarter as i64).rem_euclid(4) {
+    match quarter as i64 & 3 {
         0 => (sine, cosine),
         1 => (cosine, -sine),
         2 => (-sine, -cosine),
@@ -141,12 +143,18 @@ fn fractions_of_decay(x: f64) -> [f64; 3] {
     [first, second, third]
 }
 
+/// Angle (rad) for whose sine and cosine three terms of their series are enough.
+const SMALL: f64 = 1e-3;
+
 /// The rotation by `vector`: about its direction, by its length in radians.
 pub fn rotation_from_vector(vector: DVec3) -> DQuat {
-    let angle = vector.length();
-    if angle == 0.0 {
-        return DQuat::IDENTITY;
+    let square = vector.length_squared();
+    if square <= SMALL * SMALL {
+        // sin(x/2)/x and cos(x/2), to 3e-23.
+        let axis = vector * (0.5 - square * (1.0 / 48.0 - square / 3840.0));
+        return DQuat::from_xyzw(axis.x, axis.y, axis.z, 1.0 - square * (1.0 / 8.0 - square / 384.0));
     }
+    let angle = square.sqrt();
     let (sine, cosine) = sin_cos(0.5 * angle);
     let axis = vector * (sine / angle);
     DQuat::from_xyzw(axis.x, axis.y, axis.z, cosine)
@@ -169,6 +177,18 @@ mod tests {
             let (sine, cosine) = sin_cos(angle);
             assert!((sine - angle.sin()).abs() < 1e-14, "{angle}");
             assert!((cosine - angle.cos()).abs() < 1e-14, "{angle}");
+        }
+    }
+
+    #[test]
+    fn small_rotations_go_over_into_large_ones() {
+        let direction = DVec3::new(0.6, -0.48, 0.64);
+        for angle in [0.0, 1e-300, 1e-12, 1e-6, 0.3e-3, SMALL, SMALL * (1.0 + 1e-12), 2.0 * SMALL] {
+            let found = rotation_from_vector(direction * angle);
+            let (sine, cosine) = (0.5 * angle).sin_cos();
+            let truth = direction * sine;
+            assert!((DVec3::new(found.x, found.y, found.z) - truth).length() <= 2e-16 * sine, "{angle}");
+            assert!((found.w - cosine).abs() <= 2e-16, "{angle}");
         }
     }
 

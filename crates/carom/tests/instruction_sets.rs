@@ -182,12 +182,12 @@ const THREADS: [u32; 3] = [1, 2, 4];
 
 /// The hashes of states and events of [pile, mesh, gas, cradle, stack, crowd].
 const EXPECTED: [[u64; 2]; 6] = [
-    [0xdf1b_8624_204e_cb22, 0xb7a2_3f6d_107d_191a],
-    [0xa547_e355_9713_ec7b, 0xcc64_33bc_1e3a_3f31],
+    [0x2cdb_5bf9_fd82_67db, 0x8e67_c7a6_7de5_0455],
+    [0x0655_4526_d58e_9ac4, 0xecc6_8f94_0e5e_3588],
     [0xb7c9_a597_8de9_22c8, 0x12d9_d339_e94d_7830],
     [0x495a_c80e_1b79_9fde, 0x046b_b65b_a085_2bf1],
-    [0xecd9_fca3_0794_fe15, 0xb079_0a92_8b06_cf95],
-    [0xb45b_7dcd_32d8_f22c, 0x70ad_ae29_03e7_9477],
+    [0xc843_29ab_9e7c_e879, 0xbcb8_68eb_af0b_dde5],
+    [0x1b68_0526_8362_7440, 0x4188_5df4_99c6_db9a],
 ];
 
 #[test]

@@ -44,22 +44,14 @@ impl Push {
     }
 }
 
-/// Adds what a contact exerts by one of its causes (impulse, moment) to what that cause gives to its two bodies. Both turns
-/// are seen from the mean centre, at a share of the way d between the `centers`: one product `d × P` does for both.
+/// Adds what a contact exerts by one of its causes (impulse, moment) to what that cause gives to its two bodies.
 #[inline]
-fn add_sides(
-    pushes: [&mut Push; 2],
-    wrench: &Wrench,
-    [impulse, moment]: [DVec3; 2],
-    [center_a, center_b]: [DVec3; 2],
-) {
-    let [a, b] = pushes;
-    let lever = (center_b - center_a).cross(impulse);
-    let from_a = lever * wrench.share();
+fn add_sides(pushes: [&mut Push; 2], wrench: &Wrench, [impulse, moment]: [DVec3; 2], centers: [DVec3; 2]) {
+    let ([a, b], [turn_a, turn_b]) = (pushes, wrench.turns([impulse, moment], centers));
     a.impulse -= impulse;
-    a.turn -= moment + from_a;
+    a.turn += turn_a;
     b.impulse += impulse;
-    b.turn += moment + from_a - lever;
+    b.turn += turn_b;
 }
 
 /// Books what contacts have exerted in the substep that is over.

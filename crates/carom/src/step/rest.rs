@@ -47,7 +47,7 @@ use crate::step::pairs::{Pair, Pairs};
 use crate::step::pool::Pool;
 use crate::step::profile::{self, Phase};
 use crowds::Crowds;
-use owner::Owner;
+use owner::{Manner, Owner};
 use std::sync::Arc;
 use work::Work;
 
@@ -60,8 +60,8 @@ pub(crate) struct Rest {
     crowds: Crowds,
     /// Whose each contact is.
     owners: Vec<Owner>,
-    /// Whether each contact would bounce if it were struck faster: apart, as only a ledger asks, and for all of them.
-    bounces: Vec<bool>,
+    /// What each contact is like: apart, as it is asked for all of them in each substep.
+    manners: Vec<Manner>,
     work: Work,
     /// Whether each body's contacts are to be renewed.
     has_moved: Vec<bool>,
@@ -83,7 +83,7 @@ impl Rest {
             resting: Vec::new(),
             crowds: Crowds::default(),
             owners: Vec::new(),
-            bounces: Vec::new(),
+            manners: Vec::new(),
             work: Work::default(),
             has_moved: Vec::new(),
         }

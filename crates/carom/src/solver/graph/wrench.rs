@@ -62,16 +62,13 @@ impl Wrench {
         self.part(PRESSURE_MOMENT) + self.part(FRICTION_MOMENT)
     }
 
-    /// From the centre of mass of one side to the mean centre.
-    pub fn offset(&self, side: usize, [a, b]: [DVec3; 2]) -> DVec3 {
-        if side == 0 { (b - a) * self.share() } else { (a - b) * (1.0 - self.share()) }
-    }
-
-    /// The angular impulse about the body's own centre of mass that `[impulse, moment]` gives to the body of one side, with the
-    /// centres of both: what is seen from the mean centre, and the way from there.
-    pub fn turn(&self, side: usize, [impulse, moment]: [DVec3; 2], centers: [DVec3; 2]) -> DVec3 {
-        let turn = moment + self.offset(side, centers).cross(impulse);
-        if side == 0 { -turn } else { turn }
+    /// The angular impulses about their own `centers` of mass that `[impulse, moment]` gives to both bodies: the moment about the mean
+    /// centre, which is at a share of the way d between the centres, and what comes from there. One product `d × P` does for both.
+    #[inline]
+    pub fn turns(&self, [impulse, moment]: [DVec3; 2], [center_a, center_b]: [DVec3; 2]) -> [DVec3; 2] {
+        let lever = (center_b - center_a).cross(impulse);
+        let from_a = moment + lever * self.share();
+        [-from_a, from_a - lever]
     }
 }
 

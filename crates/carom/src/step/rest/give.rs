@@ -36,7 +36,7 @@ struct Held {
     gain: [DVec3; 2],
     /// Whether the forces on it persist.
     steady: bool,
-    /// Whether it touches something with friction.
+    /// Whether contacts with friction push it.
     rough: bool,
 }
 
@@ -55,11 +55,6 @@ impl Rest {
     /// Gives the impulses of the contacts to the bodies that they hold.
     pub(super) fn give(&mut self, bodies: &mut Bodies, work: &mut Work, (law, span): (RestLaw, Span)) {
         let substep = span.until - span.from;
-        for wrench in &work.wrenches {
-            let [a, b] = wrench.rows();
-            work.impulses[a] -= wrench.impulse();
-            work.impulses[b] += wrench.impulse();
-        }
         work.centers[WORLD_ROW] = bodies.states[WORLD_ROW].position;
         for &row in &work.rows {
             work.centers[row] = bodies.states[row].position;
@@ -100,11 +95,11 @@ impl Rest {
         for wrench in &work.wrenches {
             let push = [wrench.impulse(), wrench.moment()];
             let centers = wrench.rows().map(|row| work.centers[row]);
-            for (side, row) in wrench.rows().into_iter().enumerate() {
-                work.turns[row] += wrench.turn(side, push, centers);
+            for (row, turn) in wrench.rows().into_iter().zip(wrench.turns(push, centers)) {
+                work.turns[row] += turn;
             }
             if let Some(journal) = &mut bodies.journal {
-                journal.note_causes(wrench, centers, self.bounces[wrench.contact.index()]);
+                journal.note_causes(wrench, centers, self.manners[wrench.contact.index()].bounces);
             }
         }
     }
@@ -154,8 +149,8 @@ fn captured_share(speed: f64, law: RestLaw) -> f64 {
 fn capture_spin(bodies: &Bodies, row: usize, change: &mut Change, law: RestLaw) -> DVec3 {
     let (state, constants) = (&bodies.states[row], &bodies.constants[row]);
     let momentum = state.angular_momentum + change.momentum;
-    let spin = constants.inverse_inertia(state.rotation) * momentum;
-    let turn = -captured_share(spin.length() * bodies.grains[row], law) * momentum;
+    let spin = constants.free_spin_speed(state.rotation, momentum);
+    let turn = -captured_share(spin * bodies.grains[row], law) * momentum;
     change.momentum += turn;
     turn
 }

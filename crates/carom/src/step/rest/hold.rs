@@ -53,7 +53,7 @@ impl Rest {
             self.renew_moved(bodies, pairs, &work.rows, (law, span));
             self.free(bodies, law, &mut work);
             copy(&mut work.rows, self.rows.held());
-            self.push(bodies, pairs, (law, span), &mut work);
+            self.push(bodies, (law, span), &mut work);
             rerouted.extend_from_slice(&work.rows);
             rerouted.append(&mut work.freed);
         }
@@ -72,11 +72,10 @@ impl Rest {
     }
 
     /// Solves, and gives the impulses found to the bodies.
-    fn push(&mut self, bodies: &mut Bodies, pairs: &Pairs, (law, span): (RestLaw, Span), work: &mut Work) {
+    fn push(&mut self, bodies: &mut Bodies, (law, span): (RestLaw, Span), work: &mut Work) {
         let _phase = profile::phase(Phase::Give);
         let substep = span.until - span.from;
         work.begin(bodies.states.len());
-        self.find_rough(pairs, &mut work.is_rough);
         for &row in &work.rows {
             work.gains[row] = self.gain(bodies, row, (law, substep));
         }
@@ -91,32 +90,38 @@ impl Rest {
         for &row in &work.rows {
             let before = [&work.unpushed[row], &work.persisting[row]];
             let sudden = self.sudden_change(row, before, bodies.grains[row]);
-            work.is_steady[row] = sudden <= STEADY * work.gains[row][0].length() || !is_free(bodies, row);
+            let little = STEADY * STEADY * work.gains[row][0].length_squared();
+            work.is_steady[row] = sudden <= little || !is_free(bodies, row);
         }
         self.graph.in_whole_islands(&mut work.is_steady);
         self.graph.wrenches(&self.rows.velocities, &mut work.wrenches);
-        for wrench in &work.wrenches {
-            wrench.rows().into_iter().for_each(|row| work.is_pushed[row] = true);
-        }
+        self.add_up(work);
         self.give(bodies, work, (law, span));
     }
 
-    /// How far (m/s) a body of this grain (m) is from being pushed as in the substep before: by the same contacts, or by others in their
-    /// place. It had these velocities with no contact pushing, and with those that go on.
+    /// How far a body of this grain (m) is from being pushed as in the substep before, squared, m²/s²: by the same contacts, or by others in
+    /// their place. It had these velocities with no contact pushing, and with those that go on.
     fn sudden_change(&mut self, row: usize, [unpushed, persisting]: [&Row; 2], grain: f64) -> f64 {
-        let size = |[linear, angular]: [DVec3; 2]| linear.length().max(angular.length() * grain);
+        let size = |[linear, angular]: [DVec3; 2]| {
+            linear.length_squared().max(angular.length_squared() * grain * grain)
+        };
         let after = self.rows.velocities[row];
         let given = Row(std::array::from_fn(|k| if k < 6 { after.0[k] - unpushed.0[k] } else { 0.0 }));
         let before = std::mem::replace(&mut self.rows.given[row], given);
         size(difference(&after, persisting)).min(size(difference(&given, &before)))
     }
 
-    /// Finds which bodies touch something with friction.
-    fn find_rough(&self, pairs: &Pairs, is_rough: &mut [bool]) {
-        for &index in &self.resting {
-            let pair = &pairs[index];
-            let rubs = pair.rubs;
-            pair.rows().into_iter().for_each(|row| is_rough[row] |= rubs);
+    /// Adds up what contacts push each body with, and whether any of them does it with friction.
+    fn add_up(&self, work: &mut Work) {
+        for wrench in &work.wrenches {
+            let ([a, b], impulse) = (wrench.rows(), wrench.impulse());
+            work.impulses[a] -= impulse;
+            work.impulses[b] += impulse;
+            let rubs = self.manners[wrench.contact.index()].rubs;
+            for row in [a, b] {
+                work.is_pushed[row] = true;
+                work.is_rough[row] |= rubs;
+            }
         }
     }
 
@@ -128,9 +133,9 @@ impl Rest {
         } else {
             free_influence(bodies, row, law.gravity)
         };
-        let inverse_inertia = bodies.constants[row].inverse_inertia(bodies.states[row].rotation);
         let [velocity, momentum] = [free.acceleration * substep, free.torque * substep];
-        self.rows.read_velocity(bodies, row, [velocity, inverse_inertia * momentum]);
+        let spin = bodies.constants[row].free_spin(bodies.states[row].rotation, momentum);
+        self.rows.read_velocity(bodies, row, [velocity, spin]);
         [velocity, momentum]
     }
 

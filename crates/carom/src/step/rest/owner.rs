@@ -27,6 +27,14 @@ impl Owner {
     }
 }
 
+/// What a contact is like.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Manner {
+    /// Whether it would bounce if it were struck faster, and whether it has static friction.
+    pub bounces: bool,
+    pub rubs: bool,
+}
+
 /// What touches at each point of a contact.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Touched {

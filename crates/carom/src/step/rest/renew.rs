@@ -5,7 +5,7 @@
 //! angular velocity too. Impulses go over from the old contacts to the new ones (`remember.rs`).
 
 use super::crowds::reach_in_crowd;
-use super::owner::{Owner, Touched};
+use super::owner::{Manner, Owner, Touched};
 use super::remember::remembered;
 use super::work::fill;
 use super::{Rest, Span, horizon};
@@ -141,8 +141,8 @@ impl Rest {
             let count = self.owners.len().max(contact.index() + 1);
             self.owners.lengthen(count, Owner::NOBODY);
             self.owners[contact.index()] = Owner { touched: *touched, ..owner };
-            self.bounces.lengthen(count, false);
-            self.bounces[contact.index()] = pair.bounces;
+            self.manners.lengthen(count, Manner::default());
+            self.manners[contact.index()] = Manner { bounces: pair.bounces, rubs: pair.rubs };
         }
         for contact in pair.contacts.drain(view.contacts.len()..) {
             self.release(contact);

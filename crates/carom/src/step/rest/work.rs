@@ -18,7 +18,7 @@ pub(super) struct Work {
     pub persisting: Vec<Row>,
     /// Velocity (m/s) and angular momentum (N·m·s) that gravity and the user's forces give.
     pub gains: Vec<[DVec3; 2]>,
-    /// Whether the body touches something with friction.
+    /// Whether contacts with friction push the body.
     pub is_rough: Vec<bool>,
     /// Whether the forces on it persist.
     pub is_steady: Vec<bool>,
