@@ -131,7 +131,7 @@ fn swapped(manifold: &Manifold) -> Manifold {
 struct OnSurface<'a> {
     /// The normal that the surface allows, in the triangle's frame, in place of the one that the two shapes alone
     /// would give. Where it is another, only points where the two sides face each other along it count.
-    correct: &'a dyn Fn(DVec3) -> DVec3,
+    normal: DVec3,
     /// At right angles to the triangle, in its frame.
     own: DVec3,
     /// What other triangles of the surface have given already: a point on a shared side is not given twice.
@@ -156,6 +156,11 @@ impl Beside<'_> {
     }
 }
 
+/// Whether a direction (unit length) is another than one found with rounding.
+fn is_another(one: DVec3, other: DVec3) -> bool {
+    one.distance(other) > 1e-9
+}
+
 /// The manifold of two convex shapes, whose least gap is known, of the points within the margin of `candidates`, which offers
 /// room.
 fn convex_manifold(
@@ -166,8 +171,8 @@ fn convex_manifold(
 ) -> Option<Manifold> {
     let (convex_a, convex_b, inner) = (a.0, beside.convex, &beside.inner);
     let radii = convex_a.radius + convex_b.radius;
-    let normal = surface.map_or(least.normal, |surface| (surface.correct)(least.normal));
-    let corrected = normal.distance(least.normal) > 1e-9;
+    let normal = surface.map_or(least.normal, |surface| surface.normal);
+    let corrected = is_another(normal, least.normal);
     least.normal = normal;
     candidates.clear();
     clip::contacts(convex_a, convex_b, inner, normal, candidates);

@@ -7,7 +7,7 @@ use super::clip::Candidates;
 use super::convex::{Convex, Core};
 use super::facet::Form;
 use super::triangles::Triangles;
-use super::{Beside, OnSurface, axis, convex_manifold};
+use super::{Beside, OnSurface, axis, convex_manifold, is_another};
 use crate::collide::{ContactPoint, Manifold};
 use crate::math::{DVec3, Pose};
 use crate::report::Feature;
@@ -57,6 +57,12 @@ fn gap_within(surface: Triangles, index: u32, beside: &Beside, margin: f64) -> O
             if is_far { None } else { found() }
         }
     }
+}
+
+/// Whether no point of a convex shape is over or under a triangle, seen along `normal`, as far as that is told at the price of a few
+/// support points.
+fn is_beside(surface: Triangles, index: u32, beside: &Beside, normal: DVec3) -> bool {
+    beside.form.zip(surface.facet(index)).is_some_and(|(form, facet)| facet.is_beside(form, normal))
 }
 
 /// The least separation of any triangle from `other`, which is no plane.
@@ -184,9 +190,12 @@ fn convex_manifolds(
         if touched.is_none_or(|(least, _)| axis.gap < least.gap) {
             touched = Some((axis, index));
         }
+        let normal = surface_normal(surface, index, axis.normal, middle);
+        if is_another(normal, axis.normal) && is_beside(surface, index, beside, normal) {
+            continue;
+        }
         let triangle = triangle_core(surface, index);
-        let correct = |normal: DVec3| surface_normal(surface, index, normal, middle);
-        let around = OnSurface { correct: &correct, own: surface.normal(index), known: &out[first..] };
+        let around = OnSurface { normal, own: surface.normal(index), known: &out[first..] };
         let found = convex_manifold((&triangle, pose), beside, axis, (&mut candidates, Some(&around)));
         out.extend(found);
     }
@@ -216,9 +225,9 @@ fn surface_manifolds(
         for other_index in nearby(other, low, high, margin) {
             let other_triangle = triangle_core(other, other_index);
             let own = surface.normal(index);
-            let around = OnSurface { correct: &|normal| normal, own, known: &out[first..] };
             let beside = Beside { convex: &other_triangle, inner: pose.relative(other_pose), form: None };
             let Some(axis) = beside.gap_within(&triangle.core, 0.0, margin) else { continue };
+            let around = OnSurface { normal: axis.normal, own, known: &out[first..] };
             let found = convex_manifold((&triangle, pose), &beside, axis, (&mut candidates, Some(&around)));
             out.extend(found);
         }
