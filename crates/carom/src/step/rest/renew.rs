@@ -6,7 +6,6 @@
 
 use super::crowds::reach_in_crowd;
 use super::owner::{Owner, Touched};
-use super::remember::remembered;
 use super::work::fill;
 use super::{Rest, Span, horizon};
 use crate::bodies::{Bodies, ColliderRow};
@@ -17,6 +16,7 @@ use crate::solver::graph::ContactId;
 use crate::solver::prepare::{Side, Terms, fill_lane};
 use crate::step::pairs::Pairs;
 use crate::step::profile::{self, Phase};
+use smallvec::SmallVec;
 
 /// Motion of a body, as a share of its smallest collider's reach or in radians, after which its contacts are renewed: of one that lies or
 /// moves slowly. What a fast one does within a step may add up before, to the second at most; they are looked at closely again as it
@@ -32,6 +32,9 @@ const LOOKS: usize = 16;
 
 /// So many are looked at before their contacts are put in place: what waits for that has to be kept meanwhile.
 const AT_ONCE: usize = 512;
+
+/// Most pairs touch in no more manifolds.
+const FEW: usize = 4;
 
 /// What a pair's contacts are to be.
 struct View {
@@ -79,12 +82,12 @@ impl Rest {
 
         let terms = Terms { surface: pair.surface, margin, horizon: horizon(pair, grain, law), is_pressed };
         let centers = [a, b].map(|collider| bodies.center_pose(collider).position);
-        let past: Vec<_> = pair.contacts.iter().map(|&contact| self.past(contact, centers)).collect();
-        let remembered = remembered(&past, &manifolds, margin);
+        let touched: SmallVec<[Touched; FEW]> = manifolds.iter().map(Touched::of).collect();
+        let legacy = self.legacy(&pair.contacts, centers, &manifolds, &touched);
         let mut sides = [a, b].map(|collider| self.side(bodies, collider));
         let poses = [a, b].map(|collider| bodies.center_pose(collider).then_local(&collider.local));
         let mut contacts = Vec::with_capacity(manifolds.len());
-        for (manifold, remembered) in manifolds.iter().zip(&remembered) {
+        for (number, (manifold, touched)) in manifolds.iter().zip(touched).enumerate() {
             let (normal, points) = (manifold.normal, manifold.points());
             for (side, (collider, outward)) in [(a, normal), (b, -normal)].into_iter().enumerate() {
                 let pose = &poses[side];
@@ -92,9 +95,10 @@ impl Rest {
                 sides[side].roundness = collider.shape.roundness(place, pose.rotation.conjugate() * outward);
             }
             // Filled where it stands: it is too large to be handed on.
-            contacts.push((Touched::of(manifold), NO_CONTACT));
+            let remembered = legacy.left_to(number, manifold, &touched, margin);
+            contacts.push((touched, NO_CONTACT));
             if let Some((_, lane)) = contacts.last_mut() {
-                fill_lane(lane, (normal, points), &sides, &terms, remembered);
+                fill_lane(lane, (normal, points), &sides, &terms, &remembered);
             }
         }
         Some(View { contacts, is_pressed })
