@@ -7,9 +7,15 @@ use crate::collide::{ContactPoint, Manifold};
 use crate::math::{DVec3, Pose, any_tangent};
 use crate::report::Feature;
 use knife::{Cut, Knife, Room, Side};
+use std::cell::Cell;
 
 /// Most outlines that are cut have no more corners.
 const FEW: usize = 8;
+
+thread_local! {
+    /// What the last look of this thread needed has room for the next one.
+    static SPARE: Cell<Candidates> = const { Cell::new(Candidates::NONE) };
+}
 
 /// Points that may go into a manifold: those within a margin.
 pub(super) struct Candidates {
@@ -20,9 +26,33 @@ pub(super) struct Candidates {
     room: Room,
 }
 
+impl Default for Candidates {
+    fn default() -> Self {
+        Self::NONE
+    }
+}
+
 impl Candidates {
-    pub fn new(margin: f64) -> Self {
-        Self { points: Vec::new(), margin, sides: Default::default(), room: Room::default() }
+    const NONE: Candidates = Candidates {
+        points: Vec::new(),
+        margin: 0.0,
+        sides: [Outline::NONE, Outline::NONE],
+        room: Room::NONE,
+    };
+
+    /// Hands `look` room for the points of manifolds within a margin (m).
+    pub fn with<R>(margin: f64, look: impl FnOnce(&mut Candidates) -> R) -> R {
+        let mut candidates = SPARE.take();
+        candidates.clear();
+        candidates.margin = margin;
+        let found = look(&mut candidates);
+        SPARE.set(candidates);
+        found
+    }
+
+    /// m
+    pub fn margin(&self) -> f64 {
+        self.margin
     }
 
     /// Room for the points of another manifold within the same margin.

@@ -153,17 +153,16 @@ pub(super) fn manifolds(
         (Some(convex), _) => {
             let inner = pose.relative(other.1);
             Form::with(&convex.core, &inner, |form| {
-                convex_manifolds(
-                    (surface, pose),
-                    &Beside { convex: &convex, inner, form },
-                    &near,
-                    margin,
-                    out,
-                );
+                let beside = Beside { convex: &convex, inner, form };
+                Candidates::with(margin, |candidates| {
+                    convex_manifolds((surface, pose), &beside, &near, candidates, out);
+                });
             });
         }
         (None, Some(other_surface)) => {
-            surface_manifolds((surface, pose), (other_surface, other.1), &near, margin, out);
+            Candidates::with(margin, |candidates| {
+                surface_manifolds((surface, pose), (other_surface, other.1), &near, candidates, out);
+            });
         }
         (None, None) => {}
     }
@@ -177,14 +176,14 @@ fn convex_manifolds(
     (surface, pose): (Triangles, &Pose),
     beside: &Beside,
     near: &[u32],
-    margin: f64,
+    candidates: &mut Candidates,
     out: &mut Vec<Manifold>,
 ) {
     let first = out.len();
     let convex = beside.convex;
     let middle = beside.inner.transform_point(convex.core.middle());
     let mut touched: Option<(Axis, u32)> = None;
-    let mut candidates = Candidates::new(margin);
+    let margin = candidates.margin();
     for &index in near {
         let Some(axis) = gap_within(surface, index, beside, margin) else { continue };
         if touched.is_none_or(|(least, _)| axis.gap < least.gap) {
@@ -196,7 +195,7 @@ fn convex_manifolds(
         }
         let triangle = triangle_core(surface, index);
         let around = OnSurface { normal, own: surface.normal(index), known: &out[first..] };
-        let found = convex_manifold((&triangle, pose), beside, axis, (&mut candidates, Some(&around)));
+        let found = convex_manifold((&triangle, pose), beside, axis, (candidates, Some(&around)));
         out.extend(found);
     }
     if out.len() > first {
@@ -204,7 +203,7 @@ fn convex_manifolds(
     }
     if let Some((axis, deepest)) = touched {
         let triangle = triangle_core(surface, deepest);
-        out.extend(convex_manifold((&triangle, pose), beside, axis, (&mut candidates, None)));
+        out.extend(convex_manifold((&triangle, pose), beside, axis, (candidates, None)));
     }
 }
 
@@ -213,12 +212,12 @@ fn surface_manifolds(
     (surface, pose): (Triangles, &Pose),
     (other, other_pose): (Triangles, &Pose),
     near: &[u32],
-    margin: f64,
+    candidates: &mut Candidates,
     out: &mut Vec<Manifold>,
 ) {
     let first = out.len();
     let turned = other_pose.relative(pose);
-    let mut candidates = Candidates::new(margin);
+    let margin = candidates.margin();
     for &index in near {
         let triangle = triangle_core(surface, index);
         let (low, high) = triangle_bounds(surface, index, &turned);
@@ -228,7 +227,7 @@ fn surface_manifolds(
             let beside = Beside { convex: &other_triangle, inner: pose.relative(other_pose), form: None };
             let Some(axis) = beside.gap_within(&triangle.core, 0.0, margin) else { continue };
             let around = OnSurface { normal: axis.normal, own, known: &out[first..] };
-            let found = convex_manifold((&triangle, pose), &beside, axis, (&mut candidates, Some(&around)));
+            let found = convex_manifold((&triangle, pose), &beside, axis, (candidates, Some(&around)));
             out.extend(found);
         }
     }
@@ -252,13 +251,14 @@ pub(super) fn plane_separation(plane: &Pose, surface: Triangles, pose: &Pose) ->
 /// The plane goes first: the normal is the plane's own.
 pub(super) fn plane_manifold(plane: &Pose, surface: Triangles, pose: &Pose, margin: f64) -> Option<Manifold> {
     let up = plane.rotation * DVec3::Y;
-    let mut candidates = Candidates::new(margin);
-    surface.visit_corners(|corner, vertex| {
-        let corner = pose.transform_point(corner);
-        let separation = (corner - plane.position).dot(up);
-        let point = corner - up * (0.5 * separation);
-        let (feature_a, feature_b) = (Feature::Surface, Feature::Vertex(vertex));
-        candidates.push(ContactPoint { point, separation, feature_a, feature_b });
-    });
-    candidates.reduced(up)
+    Candidates::with(margin, |candidates| {
+        surface.visit_corners(|corner, vertex| {
+            let corner = pose.transform_point(corner);
+            let separation = (corner - plane.position).dot(up);
+            let point = corner - up * (0.5 * separation);
+            let (feature_a, feature_b) = (Feature::Surface, Feature::Vertex(vertex));
+            candidates.push(ContactPoint { point, separation, feature_a, feature_b });
+        });
+        candidates.reduced(up)
+    })
 }
