@@ -5,7 +5,7 @@ mod normal;
 use super::axis::Axis;
 use super::clip::Candidates;
 use super::convex::{Convex, Core};
-use super::facet::Form;
+use super::facet::{Facet, Form};
 use super::triangles::Triangles;
 use super::{Beside, OnSurface, axis, convex_manifold, is_another};
 use crate::collide::{ContactPoint, Manifold};
@@ -25,14 +25,28 @@ fn nearby(surface: Triangles, low: DVec3, high: DVec3, margin: f64) -> Vec<u32> 
     surface.within(low - grown, high + grown)
 }
 
+/// A triangle of a surface.
+struct Tile<'a> {
+    surface: Triangles<'a>,
+    index: u32,
+    /// None where it has no normal.
+    facet: Option<Facet>,
+}
+
+impl<'a> Tile<'a> {
+    fn new(surface: Triangles<'a>, index: u32) -> Self {
+        Self { surface, index, facet: surface.facet(index) }
+    }
+}
+
 /// A gap (m) between a triangle and a convex shape that their distance is no less than: the widest along a few
 /// directions, at the price of a few support points; one beyond `limit` will do.
-fn gap_at_least(surface: Triangles, index: u32, beside: &Beside, limit: f64) -> f64 {
-    let Some(facet) = surface.facet(index) else { return f64::NEG_INFINITY };
+fn gap_at_least(tile: &Tile, beside: &Beside, limit: f64) -> f64 {
+    let Some(facet) = &tile.facet else { return f64::NEG_INFINITY };
     let gap = match beside.form {
         Some(form) => facet.gap_at_least(form, limit + beside.convex.radius),
         None => {
-            let triangle = triangle_core(surface, index);
+            let triangle = triangle_core(tile.surface, tile.index);
             let middle = beside.inner.transform_point(beside.convex.core.middle());
             let gap = |way: DVec3| axis::along(&triangle.core, &beside.convex.core, &beside.inner, way).gap;
             facet.ways_to(middle).into_iter().flatten().map(gap).fold(f64::NEG_INFINITY, f64::max)
@@ -42,18 +56,17 @@ fn gap_at_least(surface: Triangles, index: u32, beside: &Beside, limit: f64) -> 
 }
 
 /// The axis of the largest gap between a triangle and the core of a convex shape, if that shape comes within `margin`.
-fn gap_within(surface: Triangles, index: u32, beside: &Beside, margin: f64) -> Option<Axis> {
+fn gap_within(tile: &Tile, beside: &Beside, margin: f64) -> Option<Axis> {
     let radius = beside.convex.radius;
-    match beside.form.and_then(|form| Some((form, surface.facet(index)?))) {
+    match beside.form.zip(tile.facet.as_ref()) {
         Some((form, facet)) => {
             facet.gap_within(form, radius + margin).filter(|axis| axis.gap - radius <= margin)
         }
         None => {
             // Rounding must not turn away what is just near enough.
             let slack = 1e-9 * (beside.convex.core.reach() + radius);
-            let is_far =
-                margin < f64::MAX && gap_at_least(surface, index, beside, margin + slack) > margin + slack;
-            let found = || beside.gap_within(&triangle_core(surface, index).core, 0.0, margin);
+            let is_far = margin < f64::MAX && gap_at_least(tile, beside, margin + slack) > margin + slack;
+            let found = || beside.gap_within(&triangle_core(tile.surface, tile.index).core, 0.0, margin);
             if is_far { None } else { found() }
         }
     }
@@ -61,8 +74,8 @@ fn gap_within(surface: Triangles, index: u32, beside: &Beside, margin: f64) -> O
 
 /// Whether no point of a convex shape is over or under a triangle, seen along `normal`, as far as that is told at the price of a few
 /// support points.
-fn is_beside(surface: Triangles, index: u32, beside: &Beside, normal: DVec3) -> bool {
-    beside.form.zip(surface.facet(index)).is_some_and(|(form, facet)| facet.is_beside(form, normal))
+fn is_beside(tile: &Tile, beside: &Beside, normal: DVec3) -> bool {
+    beside.form.zip(tile.facet.as_ref()).is_some_and(|(form, facet)| facet.is_beside(form, normal))
 }
 
 /// The least separation of any triangle from `other`, which is no plane.
@@ -123,7 +136,7 @@ fn separation_within(
 fn least_separation(surface: Triangles, near: Vec<u32>, beside: &Beside, least: f64) -> f64 {
     // Of those that overlap the shortest way out is known only once it is measured.
     let limit = least.max(0.0);
-    let bound = |index: u32| gap_at_least(surface, index, beside, limit);
+    let bound = |index: u32| gap_at_least(&Tile::new(surface, index), beside, limit);
     let mut queue: Vec<(f64, u32)> =
         near.into_iter().map(|index| (bound(index), index)).filter(|&(bound, _)| bound <= limit).collect();
     queue.sort_unstable_by(|one, other| one.0.total_cmp(&other.0).then(one.1.cmp(&other.1)));
@@ -132,7 +145,7 @@ fn least_separation(surface: Triangles, near: Vec<u32>, beside: &Beside, least: 
         if bound > least.max(0.0) {
             break;
         }
-        if let Some(axis) = gap_within(surface, index, beside, least.max(0.0)) {
+        if let Some(axis) = gap_within(&Tile::new(surface, index), beside, least.max(0.0)) {
             least = least.min(axis.gap - radius);
         }
     }
@@ -185,12 +198,13 @@ fn convex_manifolds(
     let mut touched: Option<(Axis, u32)> = None;
     let margin = candidates.margin();
     for &index in near {
-        let Some(axis) = gap_within(surface, index, beside, margin) else { continue };
+        let tile = Tile::new(surface, index);
+        let Some(axis) = gap_within(&tile, beside, margin) else { continue };
         if touched.is_none_or(|(least, _)| axis.gap < least.gap) {
             touched = Some((axis, index));
         }
         let normal = surface_normal(surface, index, axis.normal, middle);
-        if is_another(normal, axis.normal) && is_beside(surface, index, beside, normal) {
+        if is_another(normal, axis.normal) && is_beside(&tile, beside, normal) {
             continue;
         }
         let triangle = triangle_core(surface, index);

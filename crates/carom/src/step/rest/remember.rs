@@ -28,6 +28,8 @@ const FEW: usize = 4;
 /// What the contacts of a pair exerted, each with the number of the manifold that follows upon it.
 pub(super) struct Legacy<'a> {
     past: SmallVec<[(Past<'a>, Option<usize>); FEW]>,
+    /// Where the bodies' centres are.
+    centers: [DVec3; 2],
 }
 
 /// What a contact exerted.
@@ -35,11 +37,6 @@ struct Past<'a> {
     numbers: Numbers<'a>,
     /// Keys of what touched at each point.
     features: &'a [[u32; 2]],
-    /// Where the bodies' centres are.
-    centers: [DVec3; 2],
-    normal: DVec3,
-    first: DVec3,
-    second: DVec3,
 }
 
 impl Rest {
@@ -54,11 +51,11 @@ impl Rest {
     ) -> Legacy<'_> {
         let past = contacts.iter().map(|&contact| {
             let features = self.owners[contact.index()].touched.features();
-            let past = Past::new(self.graph.numbers(contact), features, centers);
+            let past = Past { numbers: self.graph.numbers(contact), features };
             let follower = past.follower(manifolds, touched);
             (past, follower)
         });
-        Legacy { past: past.collect() }
+        Legacy { past: past.collect(), centers }
     }
 }
 
@@ -81,7 +78,7 @@ impl Legacy<'_> {
                 let pressure = old.pressure(index);
                 match touched.features().iter().position(|it| it == features) {
                     Some(heir) => remembered.pressure[heir] += pressure,
-                    None => lost.push((old.place(index) - middle, pressure)),
+                    None => lost.push((old.place(index, self.centers) - middle, pressure)),
                 }
             }
         }
@@ -100,23 +97,19 @@ impl Legacy<'_> {
             let friction = old.friction();
             let friction = friction - normal * friction.dot(normal);
             remembered.friction += friction;
-            remembered.twist += old.twist() + normal.dot((old.middle() - middle).cross(friction));
+            remembered.twist += old.twist() + normal.dot((old.middle(self.centers) - middle).cross(friction));
         }
         remembered
     }
 }
 
-impl<'a> Past<'a> {
-    fn new(numbers: Numbers<'a>, features: &'a [[u32; 2]], centers: [DVec3; 2]) -> Self {
-        let (normal, first) = (numbers.vector(field::NORMAL), numbers.vector(field::TANGENT));
-        Self { numbers, features, centers, normal, first, second: normal.cross(first) }
-    }
-
+impl Past<'_> {
     /// Of the manifolds whose normals are alike the one with most of its points, and of those the one whose normal is most so.
     fn follower(&self, manifolds: &[Manifold], touched: &[Touched]) -> Option<usize> {
+        let normal = self.numbers.vector(field::NORMAL);
         let mut best: Option<(usize, usize, f64)> = None;
         for (number, (manifold, touched)) in manifolds.iter().zip(touched).enumerate() {
-            let alike = self.normal.dot(manifold.normal);
+            let alike = normal.dot(manifold.normal);
             if alike > ALIKE {
                 let shared = touched.features().iter().filter(|it| self.features.contains(it)).count();
                 let is_better = |&(_, most, closest): &(usize, usize, f64)| {
@@ -130,19 +123,21 @@ impl<'a> Past<'a> {
         best.map(|(number, ..)| number)
     }
 
+    /// A vector of the contact's frame in the world.
     fn outward(&self, v: DVec3) -> DVec3 {
-        self.first * v.x + self.second * v.y + self.normal * v.z
+        let (normal, first) = (self.numbers.vector(field::NORMAL), self.numbers.vector(field::TANGENT));
+        first * v.x + normal.cross(first) * v.y + normal * v.z
     }
 
     /// Where two arms end. Both bodies may have moved a little since: half way.
-    fn end(&self, arm_a: usize, arm_b: usize) -> DVec3 {
+    fn end(&self, centers: [DVec3; 2], arm_a: usize, arm_b: usize) -> DVec3 {
         let [a, b] = [arm_a, arm_b].map(|arm| self.outward(self.numbers.vector(arm)));
-        0.5 * (self.centers[0] + a + self.centers[1] + b)
+        0.5 * (centers[0] + a + centers[1] + b)
     }
 
     /// Where it pressed at a point.
-    fn place(&self, point: usize) -> DVec3 {
-        self.end(field::of_point(point, field::ARM_A), field::of_point(point, field::ARM_B))
+    fn place(&self, point: usize, centers: [DVec3; 2]) -> DVec3 {
+        self.end(centers, field::of_point(point, field::ARM_A), field::of_point(point, field::ARM_B))
     }
 
     /// How it pressed there, N·s.
@@ -151,8 +146,8 @@ impl<'a> Past<'a> {
     }
 
     /// Where friction acted.
-    fn middle(&self) -> DVec3 {
-        self.end(field::FRICTION_ARM_A, field::FRICTION_ARM_B)
+    fn middle(&self, centers: [DVec3; 2]) -> DVec3 {
+        self.end(centers, field::FRICTION_ARM_A, field::FRICTION_ARM_B)
     }
 
     /// What it was, N·s.
