@@ -21,6 +21,8 @@ thread_local! {
 pub(super) struct Candidates {
     points: Vec<ContactPoint>,
     margin: f64,
+    /// The smallest separation so far, m; infinite where there was no point.
+    least: f64,
     /// The two sides that face each other.
     sides: [Outline; 2],
     room: Room,
@@ -36,6 +38,7 @@ impl Candidates {
     const NONE: Candidates = Candidates {
         points: Vec::new(),
         margin: 0.0,
+        least: f64::INFINITY,
         sides: [Outline::NONE, Outline::NONE],
         room: Room::NONE,
     };
@@ -59,10 +62,12 @@ impl Candidates {
     pub fn clear(&mut self) {
         self.points.clear();
         self.points.reserve(FEW);
+        self.least = f64::INFINITY;
     }
 
     pub fn push(&mut self, point: ContactPoint) {
         if point.separation <= self.margin && point.point.is_finite() {
+            self.least = self.least.min(point.separation);
             self.points.push(point);
         }
     }
@@ -72,9 +77,9 @@ impl Candidates {
         self.points.retain(|point| point.point.distance(place) > distance);
     }
 
-    /// The smallest separation so far, m; infinite where there is no point.
+    /// The smallest separation of all that were offered, m; infinite where there was no point.
     pub fn least_separation(&self) -> f64 {
-        self.points.iter().map(|point| point.separation).fold(f64::INFINITY, f64::min)
+        self.least
     }
 
     /// The best four: the deepest, the one farthest from it, and on each side of the line between them the one that

@@ -73,12 +73,11 @@ impl Facet {
         let on_side = |side: usize| {
             let (from, to) = (self.corners[side], self.corners[(side + 1) % 3]);
             let along = to - from;
-            from + along * ((point - from).dot(along) / along.length_squared()).clamp(0.0, 1.0)
+            let place = from + along * ((point - from).dot(along) / along.length_squared()).clamp(0.0, 1.0);
+            (place.distance_squared(point), place)
         };
-        let nearer = |one: DVec3, other: DVec3| {
-            if other.distance_squared(point) < one.distance_squared(point) { other } else { one }
-        };
-        nearer(nearer(on_side(0), on_side(1)), on_side(2))
+        let nearer = |one: (f64, DVec3), other: (f64, DVec3)| if other.0 < one.0 { other } else { one };
+        nearer(nearer(on_side(0), on_side(1)), on_side(2)).1
     }
 
     /// The triangle's side between its corners number `side` and the next.

@@ -81,25 +81,24 @@ impl Rest {
         manifolds.retain(|manifold| !manifold.points().is_empty());
 
         let terms = Terms { surface: pair.surface, margin, horizon: horizon(pair, grain, law), is_pressed };
-        let centers = [a, b].map(|collider| bodies.center_pose(collider).position);
+        let centers = [bodies.center_pose(a).position, bodies.center_pose(b).position];
         let touched: SmallVec<[Touched; FEW]> = manifolds.iter().map(Touched::of).collect();
         let legacy = self.legacy(&pair.contacts, centers, &manifolds, &touched);
-        let mut sides = [a, b].map(|collider| self.side(bodies, collider));
-        let poses = [a, b].map(|collider| bodies.center_pose(collider).then_local(&collider.local));
-        let mut contacts = Vec::with_capacity(manifolds.len());
-        for (number, (manifold, touched)) in manifolds.iter().zip(touched).enumerate() {
+        let mut sides = [self.side(bodies, a), self.side(bodies, b)];
+        let pose = |collider: &ColliderRow| bodies.center_pose(collider).then_local(&collider.local);
+        let poses = [pose(a), pose(b)];
+        // Filled where they stand: they are too large to be handed on.
+        let mut contacts = vec![(Touched::NOTHING, NO_CONTACT); manifolds.len()];
+        for (number, ((contact, lane), manifold)) in contacts.iter_mut().zip(&manifolds).enumerate() {
             let (normal, points) = (manifold.normal, manifold.points());
             for (side, (collider, outward)) in [(a, normal), (b, -normal)].into_iter().enumerate() {
                 let pose = &poses[side];
                 let place = pose.inverse_transform_point(points[0].point);
                 sides[side].roundness = collider.shape.roundness(place, pose.rotation.conjugate() * outward);
             }
-            // Filled where it stands: it is too large to be handed on.
-            let remembered = legacy.left_to(number, manifold, &touched, margin);
-            contacts.push((touched, NO_CONTACT));
-            if let Some((_, lane)) = contacts.last_mut() {
-                fill_lane(lane, (normal, points), &sides, &terms, &remembered);
-            }
+            *contact = touched[number];
+            let remembered = legacy.left_to(number, manifold, contact, margin);
+            fill_lane(lane, (normal, points), &sides, &terms, &remembered);
         }
         Some(View { contacts, is_pressed })
     }

@@ -84,7 +84,7 @@ impl Knife {
         }
         let slope = (-area.x / area.z, -area.y / area.z);
         let offset = origin.2 - slope.0 * origin.0 - slope.1 * origin.1;
-        let extent = (1..count).map(|k| from_origin(k).length()).fold(0.0, f64::max);
+        let extent = (1..count).map(|k| from_origin(k).length_squared()).fold(0.0, f64::max).sqrt();
         Some(Self { places: points, count, turn: area.z.signum(), slope, offset, tolerance: 1e-9 * extent })
     }
 
