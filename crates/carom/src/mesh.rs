@@ -71,6 +71,7 @@ impl Mesh {
     }
 
     /// The corners of a triangle, m.
+    #[inline]
     pub(crate) fn corners(&self, triangle: u32) -> [DVec3; 3] {
         let [a, b, c] = self.triangles[triangle as usize];
         [self.vertices[a as usize], self.vertices[b as usize], self.vertices[c as usize]]
@@ -78,6 +79,7 @@ impl Mesh {
 
     /// The direction at right angles to a triangle around which its corners run anticlockwise, unit length; zero where rounding
     /// leaves none.
+    #[inline]
     pub(crate) fn normal(&self, triangle: u32) -> DVec3 {
         self.normals[triangle as usize]
     }

@@ -95,14 +95,16 @@ pub(crate) fn closest(
         if distance - gap <= 1e-15 * (size + distance) || known() {
             break;
         }
-        let Some((reduced, closer)) = simplex.joined(next) else {
+        let before = simplex;
+        let Some(closer) = simplex.join(next) else {
             let (gap, normal) = best;
             return Some(Closest { normal, gap, is_apart: false, simplex });
         };
         if closer.length_squared() >= offset.length_squared() {
+            simplex = before;
             break;
         }
-        (simplex, offset) = (reduced, closer);
+        offset = closer;
     }
     let distance = offset.length();
     if distance - best.0 > 1e-15 * (size + distance) {
@@ -136,41 +138,62 @@ impl Simplex {
         across.try_normalize().unwrap_or_else(|| offset.normalize_or(DVec3::X))
     }
 
-    /// The simplex of the fewest corners, of these and `next`, that holds the point of all four closest to the origin, and that
-    /// point. `None` if the origin is inside.
-    fn joined(&self, next: Corner) -> Option<(Simplex, DVec3)> {
+    /// Makes it that of the fewest corners, of these and `next`, that holds the point of all four closest to the origin; tells that
+    /// point. `None`, and nothing changes, if the origin is inside.
+    fn join(&mut self, next: Corner) -> Option<DVec3> {
         let [a, b, c] = self.corners;
-        Some(match self.count {
-            1 => segment(next, a),
-            2 => triangle(next, a, b),
-            _ => return tetrahedron(next, [a, b, c]),
-        })
+        let all = [next, a, b, c];
+        let places = all.map(|corner| corner.difference);
+        let part = match self.count {
+            1 => segment(&places, [0, 1]),
+            2 => triangle(&places, [0, 1, 2]),
+            _ => tetrahedron(&places)?,
+        };
+        let corners = part.corners.map(|number| all[usize::from(number)]);
+        *self = Self { corners, weights: part.weights, count: part.count };
+        Some(part.closest)
     }
 }
 
-fn single(a: Corner) -> (Simplex, DVec3) {
-    (Simplex { corners: [a; 3], weights: [1.0, 0.0, 0.0], count: 1 }, a.difference)
+/// One to three of some corners, by number, with the weights that make of them the point closest to the origin.
+#[derive(Clone, Copy)]
+struct Part {
+    corners: [u8; 3],
+    weights: [f64; 3],
+    count: usize,
+    closest: DVec3,
 }
 
-fn segment(a: Corner, b: Corner) -> (Simplex, DVec3) {
-    let along = b.difference - a.difference;
-    let (reach, whole) = (-a.difference.dot(along), along.length_squared());
+impl Part {
+    fn single(places: &[DVec3; 4], a: u8) -> Self {
+        Self { corners: [a; 3], weights: [1.0, 0.0, 0.0], count: 1, closest: places[usize::from(a)] }
+    }
+
+    /// The one that comes closer to the origin; the first of equals.
+    fn or_closer(best: Option<Self>, other: Self) -> Option<Self> {
+        let is_better =
+            best.is_none_or(|best| other.closest.length_squared() < best.closest.length_squared());
+        if is_better { Some(other) } else { best }
+    }
+}
+
+fn segment(places: &[DVec3; 4], [a, b]: [u8; 2]) -> Part {
+    let [from, to] = [a, b].map(|number| places[usize::from(number)]);
+    let along = to - from;
+    let (reach, whole) = (-from.dot(along), along.length_squared());
     if reach <= 0.0 {
-        return single(a);
+        return Part::single(places, a);
     } else if reach >= whole {
-        return single(b);
+        return Part::single(places, b);
     }
     let share = reach / whole;
-    let simplex = Simplex { corners: [a, b, b], weights: [1.0 - share, share, 0.0], count: 2 };
-    (simplex, a.difference + along * share)
+    let weights = [1.0 - share, share, 0.0];
+    Part { corners: [a, b, b], weights, count: 2, closest: from + along * share }
 }
 
-fn closer(one: (Simplex, DVec3), other: (Simplex, DVec3)) -> (Simplex, DVec3) {
-    if other.1.length_squared() < one.1.length_squared() { other } else { one }
-}
-
-fn triangle(a: Corner, b: Corner, c: Corner) -> (Simplex, DVec3) {
-    let [pa, pb, pc] = [a, b, c].map(|corner| corner.difference);
+fn triangle(places: &[DVec3; 4], corners: [u8; 3]) -> Part {
+    let [a, b, c] = corners;
+    let [pa, pb, pc] = corners.map(|number| places[usize::from(number)]);
     let normal = (pb - pa).cross(pc - pa);
     // Twice the area of the triangle that the origin's foot makes with each side, times twice the triangle's own.
     let areas = [pb.cross(pc).dot(normal), pc.cross(pa).dot(normal), pa.cross(pb).dot(normal)];
@@ -178,32 +201,30 @@ fn triangle(a: Corner, b: Corner, c: Corner) -> (Simplex, DVec3) {
     let sliver = whole <= 1e-28 * (pb - pa).length_squared() * (pc - pa).length_squared();
     if !sliver && areas.iter().all(|&area| area > 0.0) {
         let sum = areas[0] + areas[1] + areas[2];
-        let simplex = Simplex { corners: [a, b, c], weights: areas.map(|area| area / sum), count: 3 };
-        return (simplex, normal * (pa.dot(normal) / whole));
+        let closest = normal * (pa.dot(normal) / whole);
+        return Part { corners, weights: areas.map(|area| area / sum), count: 3, closest };
     }
-    let mut best: Option<(Simplex, DVec3)> = None;
-    for (area, (from, to)) in areas.into_iter().zip([(b, c), (c, a), (a, b)]) {
+    let mut best = None;
+    for (area, side) in areas.into_iter().zip([[b, c], [c, a], [a, b]]) {
         if area <= 0.0 || sliver {
-            let found = segment(from, to);
-            best = Some(best.map_or(found, |best| closer(best, found)));
+            best = Part::or_closer(best, segment(places, side));
         }
     }
-    best.unwrap_or_else(|| single(a))
+    best.unwrap_or_else(|| Part::single(places, a))
 }
 
-fn tetrahedron(next: Corner, [a, b, c]: [Corner; 3]) -> Option<(Simplex, DVec3)> {
-    // The origin is not beyond the old side: `next` lies farther towards it.
-    let mut best: Option<(Simplex, DVec3)> = None;
-    for (one, two, opposite) in [(a, b, c), (b, c, a), (c, a, b)] {
-        let origin = next.difference;
-        let normal = (one.difference - origin).cross(two.difference - origin);
-        let inner = (opposite.difference - origin).dot(normal);
+fn tetrahedron(places: &[DVec3; 4]) -> Option<Part> {
+    // The origin is not beyond the old side: the first corner lies farther towards it.
+    let origin = places[0];
+    let [a, b, c] = [1, 2, 3].map(|number: usize| places[number] - origin);
+    let mut best = None;
+    for (sides, [one, two, opposite]) in [([1, 2], [a, b, c]), ([2, 3], [b, c, a]), ([3, 1], [c, a, b])] {
+        let normal = one.cross(two);
+        let inner = opposite.dot(normal);
         let outer = -origin.dot(normal);
-        let extent = (opposite.difference - origin).length() * normal.length();
         // Where the four lie in a plane, each side may be the one.
-        if inner * outer <= 0.0 || inner.abs() <= 1e-14 * extent {
-            let found = triangle(next, one, two);
-            best = Some(best.map_or(found, |best| closer(best, found)));
+        if inner * outer <= 0.0 || inner.abs() <= 1e-14 * (opposite.length() * normal.length()) {
+            best = Part::or_closer(best, triangle(places, [0, sides[0], sides[1]]));
         }
     }
     best

@@ -80,13 +80,12 @@ pub(crate) fn manifolds(a: (&Shape, &Pose), b: (&Shape, &Pose), margin: f64, out
     match (&kind_a, &kind_b) {
         (Kind::Convex(convex_a), Kind::Convex(convex_b)) => {
             let beside = Beside { convex: convex_b, inner: a.1.relative(b.1), form: None };
-            let mut candidates = Candidates::new(margin);
             let least = beside.gap_within(&convex_a.core, convex_a.radius, margin);
-            out.extend(
-                least.and_then(|least| {
-                    convex_manifold((convex_a, a.1), &beside, least, (&mut candidates, None))
-                }),
-            );
+            out.extend(least.and_then(|least| {
+                Candidates::with(margin, |candidates| {
+                    convex_manifold((convex_a, a.1), &beside, least, (candidates, None))
+                })
+            }));
         }
         (Kind::Plane, Kind::Convex(convex)) => out.extend(plane_manifold(a.1, convex, b.1, margin)),
         (Kind::Plane, Kind::Surface(surface)) => {
@@ -131,7 +130,7 @@ fn swapped(manifold: &Manifold) -> Manifold {
 struct OnSurface<'a> {
     /// The normal that the surface allows, in the triangle's frame, in place of the one that the two shapes alone
     /// would give. Where it is another, only points where the two sides face each other along it count.
-    correct: &'a dyn Fn(DVec3) -> DVec3,
+    normal: DVec3,
     /// At right angles to the triangle, in its frame.
     own: DVec3,
     /// What other triangles of the surface have given already: a point on a shared side is not given twice.
@@ -156,6 +155,11 @@ impl Beside<'_> {
     }
 }
 
+/// Whether a direction (unit length) is another than one found with rounding.
+fn is_another(one: DVec3, other: DVec3) -> bool {
+    one.distance(other) > 1e-9
+}
+
 /// The manifold of two convex shapes, whose least gap is known, of the points within the margin of `candidates`, which offers
 /// room.
 fn convex_manifold(
@@ -166,8 +170,8 @@ fn convex_manifold(
 ) -> Option<Manifold> {
     let (convex_a, convex_b, inner) = (a.0, beside.convex, &beside.inner);
     let radii = convex_a.radius + convex_b.radius;
-    let normal = surface.map_or(least.normal, |surface| (surface.correct)(least.normal));
-    let corrected = normal.distance(least.normal) > 1e-9;
+    let normal = surface.map_or(least.normal, |surface| surface.normal);
+    let corrected = is_another(normal, least.normal);
     least.normal = normal;
     candidates.clear();
     clip::contacts(convex_a, convex_b, inner, normal, candidates);
@@ -214,27 +218,26 @@ fn plane_separation(plane: &Pose, convex: &Convex, pose: &Pose) -> f64 {
 fn plane_manifold(plane: &Pose, convex: &Convex, pose: &Pose, margin: f64) -> Option<Manifold> {
     let up = plane.rotation * DVec3::Y;
     let down = pose.rotation.conjugate() * -up;
-    let mut candidates = Candidates::new(margin);
-    let mut add = |local: DVec3, feature_b: Feature| {
-        let center = pose.transform_point(local);
-        let height = (center - plane.position).dot(up);
-        let separation = height - convex.radius;
-        let point = center - up * (convex.radius + 0.5 * separation);
-        candidates.push(ContactPoint { point, separation, feature_a: Feature::Surface, feature_b });
-    };
-    let outline = convex.core.outline(down);
-    outline.corners().iter().for_each(|corner| add(corner.point, corner.vertex));
     let lowest = plane_separation(plane, convex, pose);
-    if candidates.least_separation() > lowest + 1e-6 * convex.core.reach() {
-        let mut add = |local: DVec3| {
+    Candidates::with(margin, |candidates| {
+        let add = |candidates: &mut Candidates, local: DVec3, feature_b: Feature| {
             let center = pose.transform_point(local);
+            let height = (center - plane.position).dot(up);
+            let separation = height - convex.radius;
+            let point = center - up * (convex.radius + 0.5 * separation);
+            candidates.push(ContactPoint { point, separation, feature_a: Feature::Surface, feature_b });
+        };
+        for corner in convex.core.outline(down).corners() {
+            add(candidates, corner.point, corner.vertex);
+        }
+        if candidates.least_separation() > lowest + 1e-6 * convex.core.reach() {
+            let center = pose.transform_point(convex.core.support(down));
             let point = center - up * (convex.radius + 0.5 * lowest);
             let (feature_a, feature_b) = (Feature::Surface, Feature::Surface);
             candidates.push(ContactPoint { point, separation: lowest, feature_a, feature_b });
-        };
-        add(convex.core.support(down));
-    }
-    candidates.reduced(up)
+        }
+        candidates.reduced(up)
+    })
 }
 
 #[cfg(test)]

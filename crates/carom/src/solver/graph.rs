@@ -21,6 +21,7 @@ pub(crate) use wrench::Wrench;
 
 use super::bundle::{Bundle, Lane, NO_CONTACT, field};
 use super::lanes::{LANES, Machine};
+use crate::math::DVec3;
 use crate::room::Room;
 use crate::step::pool::Pool;
 use islands::Islands;
@@ -33,6 +34,22 @@ pub(crate) struct ContactId(u32);
 impl ContactId {
     pub fn index(self) -> usize {
         self.0 as usize
+    }
+}
+
+/// The numbers of a contact; zeros where there is none.
+#[derive(Clone, Copy)]
+pub(crate) struct Numbers<'a>(Option<(&'a Bundle, usize)>);
+
+impl Numbers<'_> {
+    /// One of them.
+    pub fn get(self, field: usize) -> f64 {
+        self.0.map_or(0.0, |(bundle, lane)| f64::from(bundle.get(lane, field)))
+    }
+
+    /// Three of them, from `field` on.
+    pub fn vector(self, field: usize) -> DVec3 {
+        DVec3::new(self.get(field), self.get(field + 1), self.get(field + 2))
     }
 }
 
@@ -156,6 +173,11 @@ impl Graph {
             let (rows, _) = bundle.read(number % LANES);
             bundle.write(number % LANES, rows, lane);
         }
+    }
+
+    /// A contact's numbers.
+    pub fn numbers(&self, id: ContactId) -> Numbers<'_> {
+        Numbers(self.bundle(id))
     }
 
     /// One of a contact's numbers.

@@ -7,32 +7,67 @@ use crate::collide::{ContactPoint, Manifold};
 use crate::math::{DVec3, Pose, any_tangent};
 use crate::report::Feature;
 use knife::{Cut, Knife, Room, Side};
+use std::cell::Cell;
 
 /// Most outlines that are cut have no more corners.
 const FEW: usize = 8;
+
+thread_local! {
+    /// What the last look of this thread needed has room for the next one.
+    static SPARE: Cell<Candidates> = const { Cell::new(Candidates::NONE) };
+}
 
 /// Points that may go into a manifold: those within a margin.
 pub(super) struct Candidates {
     points: Vec<ContactPoint>,
     margin: f64,
+    /// The smallest separation so far, m; infinite where there was no point.
+    least: f64,
     /// The two sides that face each other.
     sides: [Outline; 2],
     room: Room,
 }
 
+impl Default for Candidates {
+    fn default() -> Self {
+        Self::NONE
+    }
+}
+
 impl Candidates {
-    pub fn new(margin: f64) -> Self {
-        Self { points: Vec::new(), margin, sides: Default::default(), room: Room::default() }
+    const NONE: Candidates = Candidates {
+        points: Vec::new(),
+        margin: 0.0,
+        least: f64::INFINITY,
+        sides: [Outline::NONE, Outline::NONE],
+        room: Room::NONE,
+    };
+
+    /// Hands `look` room for the points of manifolds within a margin (m).
+    pub fn with<R>(margin: f64, look: impl FnOnce(&mut Candidates) -> R) -> R {
+        let mut candidates = SPARE.take();
+        candidates.clear();
+        candidates.margin = margin;
+        let found = look(&mut candidates);
+        SPARE.set(candidates);
+        found
+    }
+
+    /// m
+    pub fn margin(&self) -> f64 {
+        self.margin
     }
 
     /// Room for the points of another manifold within the same margin.
     pub fn clear(&mut self) {
         self.points.clear();
         self.points.reserve(FEW);
+        self.least = f64::INFINITY;
     }
 
     pub fn push(&mut self, point: ContactPoint) {
         if point.separation <= self.margin && point.point.is_finite() {
+            self.least = self.least.min(point.separation);
             self.points.push(point);
         }
     }
@@ -42,9 +77,9 @@ impl Candidates {
         self.points.retain(|point| point.point.distance(place) > distance);
     }
 
-    /// The smallest separation so far, m; infinite where there is no point.
+    /// The smallest separation of all that were offered, m; infinite where there was no point.
     pub fn least_separation(&self) -> f64 {
-        self.points.iter().map(|point| point.separation).fold(f64::INFINITY, f64::min)
+        self.least
     }
 
     /// The best four: the deepest, the one farthest from it, and on each side of the line between them the one that

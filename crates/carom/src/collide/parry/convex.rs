@@ -57,11 +57,13 @@ pub(super) struct Outline {
 
 impl Default for Outline {
     fn default() -> Self {
-        Self { corners: Vec::new(), face: Feature::Surface }
+        Self::NONE
     }
 }
 
 impl Outline {
+    pub const NONE: Outline = Outline { corners: Vec::new(), face: Feature::Surface };
+
     /// Makes it that of some corners, of [`CORNERS`] at most.
     fn be(&mut self, face: Feature, corners: impl IntoIterator<Item = (DVec3, Feature, Feature)>) {
         let corner = |(point, vertex, edge): (DVec3, Feature, Feature)| Corner { point, vertex, edge };

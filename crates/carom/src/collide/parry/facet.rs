@@ -18,13 +18,14 @@ use crate::collide::segment::Segment;
 use crate::math::DVec3;
 pub(super) use form::Form;
 
+/// What is beyond something by this share of the sizes is so whatever rounding did.
+const BEYOND: f64 = 1e-6;
+
 /// A triangle with an area.
 pub(super) struct Facet {
     corners: [DVec3; 3],
     /// Unit length; the corners run anticlockwise around it.
     normal: DVec3,
-    /// A length like the triangle's own, m.
-    size: f64,
 }
 
 impl Farthest for Facet {
@@ -42,9 +43,13 @@ impl Farthest for Facet {
 impl Facet {
     /// Of a direction at right angles to it around which its corners run anticlockwise; `None` where rounding leaves none.
     pub fn new(corners: [DVec3; 3], normal: DVec3) -> Option<Self> {
-        let [a, b, c] = corners;
-        let size = 0.5 * (a.max(b).max(c) - a.min(b).min(c)).max_element();
-        (normal != DVec3::ZERO).then_some(Self { corners, normal, size })
+        (normal != DVec3::ZERO).then_some(Self { corners, normal })
+    }
+
+    /// A length like the triangle's own, m.
+    fn size(&self) -> f64 {
+        let [a, b, c] = self.corners;
+        0.5 * (a.max(b).max(c) - a.min(b).min(c)).max_element()
     }
 
     /// How far `point` is above the triangle's plane, m.
@@ -68,12 +73,11 @@ impl Facet {
         let on_side = |side: usize| {
             let (from, to) = (self.corners[side], self.corners[(side + 1) % 3]);
             let along = to - from;
-            from + along * ((point - from).dot(along) / along.length_squared()).clamp(0.0, 1.0)
+            let place = from + along * ((point - from).dot(along) / along.length_squared()).clamp(0.0, 1.0);
+            (place.distance_squared(point), place)
         };
-        let nearer = |one: DVec3, other: DVec3| {
-            if other.distance_squared(point) < one.distance_squared(point) { other } else { one }
-        };
-        nearer(nearer(on_side(0), on_side(1)), on_side(2))
+        let nearer = |one: (f64, DVec3), other: (f64, DVec3)| if other.0 < one.0 { other } else { one };
+        nearer(nearer(on_side(0), on_side(1)), on_side(2)).1
     }
 
     /// The triangle's side between its corners number `side` and the next.
@@ -128,6 +132,20 @@ impl Facet {
         if self.height(point) < 0.0 { -self.normal } else { self.normal }
     }
 
+    /// Whether a core lies beyond one of the triangle's sides, seen along `normal` (unit length), and by more than rounding.
+    pub fn is_beside(&self, form: &Form, normal: DVec3) -> bool {
+        const EDGE_ON: f64 = 0.05;
+        let facing = self.normal.dot(normal);
+        let (middle, size) = (form.middle(), self.size() + form.size());
+        facing.abs() > EDGE_ON
+            && (0..3).any(|side| {
+                let (from, to) = (self.corners[side], self.corners[(side + 1) % 3]);
+                let outward = (to - from).cross(normal) * facing.signum();
+                let is_beyond = |point: DVec3| (point - from).dot(outward) > BEYOND * size * outward.length();
+                is_beyond(middle) && is_beyond(form.farthest(-outward))
+            })
+    }
+
     /// As [`super::axis::gap_within`].
     pub fn gap_within(&self, form: &Form, limit: f64) -> Option<Axis> {
         match form {
@@ -149,7 +167,7 @@ impl Facet {
             return None;
         }
         let own = self.normal_towards(point);
-        Some(if height >= distance - ROUNDING * self.size {
+        Some(if height >= distance - ROUNDING * self.size() {
             Axis { normal: own, gap: height, on_a, on_b: point }
         } else {
             Axis { normal: offset / distance, gap: distance, on_a, on_b: point }
@@ -168,7 +186,7 @@ impl Facet {
         if limit < f64::MAX && self.gap_beside(core) > limit {
             return None;
         }
-        let size = self.size + core.half.abs().max_element();
+        let size = self.size() + core.half.abs().max_element();
         let pairs = [0, 1, 2].map(|side| {
             let (on_a, on_b) = self.side(side).closest_to_segment(core);
             (on_a.distance_squared(on_b), on_a, on_b)
@@ -256,7 +274,7 @@ impl Facet {
                 return Some(self.way_out(solid, through));
             }
         }
-        let size = self.size + solid.shape.size();
+        let size = self.size() + solid.shape.size();
         let towards = if gap > 0.0 { normal } else { towards };
         let found = closest((self, solid), towards, size, limit)?;
         let (on_a, on_b) = found.points(self, solid);

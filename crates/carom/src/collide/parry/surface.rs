@@ -5,9 +5,9 @@ mod normal;
 use super::axis::Axis;
 use super::clip::Candidates;
 use super::convex::{Convex, Core};
-use super::facet::Form;
+use super::facet::{Facet, Form};
 use super::triangles::Triangles;
-use super::{Beside, OnSurface, axis, convex_manifold};
+use super::{Beside, OnSurface, axis, convex_manifold, is_another};
 use crate::collide::{ContactPoint, Manifold};
 use crate::math::{DVec3, Pose};
 use crate::report::Feature;
@@ -25,14 +25,28 @@ fn nearby(surface: Triangles, low: DVec3, high: DVec3, margin: f64) -> Vec<u32> 
     surface.within(low - grown, high + grown)
 }
 
+/// A triangle of a surface.
+struct Tile<'a> {
+    surface: Triangles<'a>,
+    index: u32,
+    /// None where it has no normal.
+    facet: Option<Facet>,
+}
+
+impl<'a> Tile<'a> {
+    fn new(surface: Triangles<'a>, index: u32) -> Self {
+        Self { surface, index, facet: surface.facet(index) }
+    }
+}
+
 /// A gap (m) between a triangle and a convex shape that their distance is no less than: the widest along a few
 /// directions, at the price of a few support points; one beyond `limit` will do.
-fn gap_at_least(surface: Triangles, index: u32, beside: &Beside, limit: f64) -> f64 {
-    let Some(facet) = surface.facet(index) else { return f64::NEG_INFINITY };
+fn gap_at_least(tile: &Tile, beside: &Beside, limit: f64) -> f64 {
+    let Some(facet) = &tile.facet else { return f64::NEG_INFINITY };
     let gap = match beside.form {
         Some(form) => facet.gap_at_least(form, limit + beside.convex.radius),
         None => {
-            let triangle = triangle_core(surface, index);
+            let triangle = triangle_core(tile.surface, tile.index);
             let middle = beside.inner.transform_point(beside.convex.core.middle());
             let gap = |way: DVec3| axis::along(&triangle.core, &beside.convex.core, &beside.inner, way).gap;
             facet.ways_to(middle).into_iter().flatten().map(gap).fold(f64::NEG_INFINITY, f64::max)
@@ -42,21 +56,26 @@ fn gap_at_least(surface: Triangles, index: u32, beside: &Beside, limit: f64) -> 
 }
 
 /// The axis of the largest gap between a triangle and the core of a convex shape, if that shape comes within `margin`.
-fn gap_within(surface: Triangles, index: u32, beside: &Beside, margin: f64) -> Option<Axis> {
+fn gap_within(tile: &Tile, beside: &Beside, margin: f64) -> Option<Axis> {
     let radius = beside.convex.radius;
-    match beside.form.and_then(|form| Some((form, surface.facet(index)?))) {
+    match beside.form.zip(tile.facet.as_ref()) {
         Some((form, facet)) => {
             facet.gap_within(form, radius + margin).filter(|axis| axis.gap - radius <= margin)
         }
         None => {
             // Rounding must not turn away what is just near enough.
             let slack = 1e-9 * (beside.convex.core.reach() + radius);
-            let is_far =
-                margin < f64::MAX && gap_at_least(surface, index, beside, margin + slack) > margin + slack;
-            let found = || beside.gap_within(&triangle_core(surface, index).core, 0.0, margin);
+            let is_far = margin < f64::MAX && gap_at_least(tile, beside, margin + slack) > margin + slack;
+            let found = || beside.gap_within(&triangle_core(tile.surface, tile.index).core, 0.0, margin);
             if is_far { None } else { found() }
         }
     }
+}
+
+/// Whether no point of a convex shape is over or under a triangle, seen along `normal`, as far as that is told at the price of a few
+/// support points.
+fn is_beside(tile: &Tile, beside: &Beside, normal: DVec3) -> bool {
+    beside.form.zip(tile.facet.as_ref()).is_some_and(|(form, facet)| facet.is_beside(form, normal))
 }
 
 /// The least separation of any triangle from `other`, which is no plane.
@@ -117,7 +136,7 @@ fn separation_within(
 fn least_separation(surface: Triangles, near: Vec<u32>, beside: &Beside, least: f64) -> f64 {
     // Of those that overlap the shortest way out is known only once it is measured.
     let limit = least.max(0.0);
-    let bound = |index: u32| gap_at_least(surface, index, beside, limit);
+    let bound = |index: u32| gap_at_least(&Tile::new(surface, index), beside, limit);
     let mut queue: Vec<(f64, u32)> =
         near.into_iter().map(|index| (bound(index), index)).filter(|&(bound, _)| bound <= limit).collect();
     queue.sort_unstable_by(|one, other| one.0.total_cmp(&other.0).then(one.1.cmp(&other.1)));
@@ -126,7 +145,7 @@ fn least_separation(surface: Triangles, near: Vec<u32>, beside: &Beside, least: 
         if bound > least.max(0.0) {
             break;
         }
-        if let Some(axis) = gap_within(surface, index, beside, least.max(0.0)) {
+        if let Some(axis) = gap_within(&Tile::new(surface, index), beside, least.max(0.0)) {
             least = least.min(axis.gap - radius);
         }
     }
@@ -147,17 +166,16 @@ pub(super) fn manifolds(
         (Some(convex), _) => {
             let inner = pose.relative(other.1);
             Form::with(&convex.core, &inner, |form| {
-                convex_manifolds(
-                    (surface, pose),
-                    &Beside { convex: &convex, inner, form },
-                    &near,
-                    margin,
-                    out,
-                );
+                let beside = Beside { convex: &convex, inner, form };
+                Candidates::with(margin, |candidates| {
+                    convex_manifolds((surface, pose), &beside, &near, candidates, out);
+                });
             });
         }
         (None, Some(other_surface)) => {
-            surface_manifolds((surface, pose), (other_surface, other.1), &near, margin, out);
+            Candidates::with(margin, |candidates| {
+                surface_manifolds((surface, pose), (other_surface, other.1), &near, candidates, out);
+            });
         }
         (None, None) => {}
     }
@@ -171,23 +189,27 @@ fn convex_manifolds(
     (surface, pose): (Triangles, &Pose),
     beside: &Beside,
     near: &[u32],
-    margin: f64,
+    candidates: &mut Candidates,
     out: &mut Vec<Manifold>,
 ) {
     let first = out.len();
     let convex = beside.convex;
     let middle = beside.inner.transform_point(convex.core.middle());
     let mut touched: Option<(Axis, u32)> = None;
-    let mut candidates = Candidates::new(margin);
+    let margin = candidates.margin();
     for &index in near {
-        let Some(axis) = gap_within(surface, index, beside, margin) else { continue };
+        let tile = Tile::new(surface, index);
+        let Some(axis) = gap_within(&tile, beside, margin) else { continue };
         if touched.is_none_or(|(least, _)| axis.gap < least.gap) {
             touched = Some((axis, index));
         }
+        let normal = surface_normal(surface, index, axis.normal, middle);
+        if is_another(normal, axis.normal) && is_beside(&tile, beside, normal) {
+            continue;
+        }
         let triangle = triangle_core(surface, index);
-        let correct = |normal: DVec3| surface_normal(surface, index, normal, middle);
-        let around = OnSurface { correct: &correct, own: surface.normal(index), known: &out[first..] };
-        let found = convex_manifold((&triangle, pose), beside, axis, (&mut candidates, Some(&around)));
+        let around = OnSurface { normal, own: surface.normal(index), known: &out[first..] };
+        let found = convex_manifold((&triangle, pose), beside, axis, (candidates, Some(&around)));
         out.extend(found);
     }
     if out.len() > first {
@@ -195,7 +217,7 @@ fn convex_manifolds(
     }
     if let Some((axis, deepest)) = touched {
         let triangle = triangle_core(surface, deepest);
-        out.extend(convex_manifold((&triangle, pose), beside, axis, (&mut candidates, None)));
+        out.extend(convex_manifold((&triangle, pose), beside, axis, (candidates, None)));
     }
 }
 
@@ -204,22 +226,22 @@ fn surface_manifolds(
     (surface, pose): (Triangles, &Pose),
     (other, other_pose): (Triangles, &Pose),
     near: &[u32],
-    margin: f64,
+    candidates: &mut Candidates,
     out: &mut Vec<Manifold>,
 ) {
     let first = out.len();
     let turned = other_pose.relative(pose);
-    let mut candidates = Candidates::new(margin);
+    let margin = candidates.margin();
     for &index in near {
         let triangle = triangle_core(surface, index);
         let (low, high) = triangle_bounds(surface, index, &turned);
         for other_index in nearby(other, low, high, margin) {
             let other_triangle = triangle_core(other, other_index);
             let own = surface.normal(index);
-            let around = OnSurface { correct: &|normal| normal, own, known: &out[first..] };
             let beside = Beside { convex: &other_triangle, inner: pose.relative(other_pose), form: None };
             let Some(axis) = beside.gap_within(&triangle.core, 0.0, margin) else { continue };
-            let found = convex_manifold((&triangle, pose), &beside, axis, (&mut candidates, Some(&around)));
+            let around = OnSurface { normal: axis.normal, own, known: &out[first..] };
+            let found = convex_manifold((&triangle, pose), &beside, axis, (candidates, Some(&around)));
             out.extend(found);
         }
     }
@@ -243,13 +265,14 @@ pub(super) fn plane_separation(plane: &Pose, surface: Triangles, pose: &Pose) ->
 /// The plane goes first: the normal is the plane's own.
 pub(super) fn plane_manifold(plane: &Pose, surface: Triangles, pose: &Pose, margin: f64) -> Option<Manifold> {
     let up = plane.rotation * DVec3::Y;
-    let mut candidates = Candidates::new(margin);
-    surface.visit_corners(|corner, vertex| {
-        let corner = pose.transform_point(corner);
-        let separation = (corner - plane.position).dot(up);
-        let point = corner - up * (0.5 * separation);
-        let (feature_a, feature_b) = (Feature::Surface, Feature::Vertex(vertex));
-        candidates.push(ContactPoint { point, separation, feature_a, feature_b });
-    });
-    candidates.reduced(up)
+    Candidates::with(margin, |candidates| {
+        surface.visit_corners(|corner, vertex| {
+            let corner = pose.transform_point(corner);
+            let separation = (corner - plane.position).dot(up);
+            let point = corner - up * (0.5 * separation);
+            let (feature_a, feature_b) = (Feature::Surface, Feature::Vertex(vertex));
+            candidates.push(ContactPoint { point, separation, feature_a, feature_b });
+        });
+        candidates.reduced(up)
+    })
 }

@@ -40,6 +40,7 @@ impl<'a> Triangles<'a> {
     }
 
     /// The corners of a triangle, m.
+    #[inline]
     pub fn corners(self, triangle: u32) -> [DVec3; 3] {
         match self {
             Triangles::Mesh(mesh) => mesh.corners(triangle),
@@ -49,6 +50,7 @@ impl<'a> Triangles<'a> {
 
     /// The direction at right angles to a triangle around which its corners run anticlockwise, unit length; zero where rounding
     /// leaves none.
+    #[inline]
     pub fn normal(self, triangle: u32) -> DVec3 {
         match self {
             Triangles::Mesh(mesh) => mesh.normal(triangle),

@@ -32,6 +32,9 @@ pub(crate) struct Effort {
     pub budget: u32,
 }
 
+/// Bundles of each colour that may have to be swept on, by their indices, ascending.
+type Candidates = Vec<Vec<u32>>;
+
 /// Sweeps between two looks at which bodies agree.
 const ROUND: u32 = 4;
 
@@ -80,16 +83,22 @@ impl Graph {
     /// concerned, and of their neighbours. Without these, what is passed on to a neighbour would wait for the next look.
     ///
     /// Only bundles that the last sweep has left `open` can be so now: what it left out it did because nothing there was, or
-    /// because no more sweeps are due to its island.
+    /// because no more sweeps are due to its island. So when all islands in motion have had theirs, the bundles of the few that go on
+    /// are all that has to be looked through.
     fn sweep_on(&mut self, velocities: &mut [Row], (effort, most): (Effort, &[u32]), mut open: Vec<Spot>) {
         let mut sweeps = effort.sweeps;
+        let mut candidates: Candidates =
+            self.colors.iter().map(|color| (0..color.bundles.len() as u32).collect()).collect();
         loop {
             let may_go_on = |island: usize| sweeps < most[island];
             let bodies = self.open_bodies(velocities.len(), (&open, effort.agreement), may_go_on);
             if !bodies.contains(&true) {
                 return;
             }
-            let chosen = self.choose(&self.with_neighbors(&bodies));
+            if sweeps >= effort.in_motion {
+                self.keep_islands(&bodies, &mut candidates);
+            }
+            let chosen = self.choose(&self.with_neighbors(&bodies, &candidates), &candidates);
             (1..ROUND).for_each(|_| drop(self.sweep(velocities, Some(&chosen), f32::INFINITY)));
             open = self.sweep(velocities, Some(&chosen), effort.agreement);
             sweeps += ROUND;
@@ -117,12 +126,29 @@ impl Graph {
         is_open
     }
 
-    /// These bodies, and those that they touch.
-    fn with_neighbors(&self, bodies: &[bool]) -> Vec<bool> {
+    /// Keeps those of the candidates that have a contact of an island with one of these bodies.
+    fn keep_islands(&self, bodies: &[bool], candidates: &mut Candidates) {
+        let mut is_open = vec![false; self.islands.sizes.len()];
+        for (row, _) in bodies.iter().enumerate().filter(|(_, is_open)| **is_open) {
+            if let Some(island) = self.islands.of(row as u32) {
+                is_open[island] = true;
+            }
+        }
+        for (Color { bundles, .. }, candidates) in self.colors.iter().zip(candidates) {
+            candidates.retain(|&index| {
+                let bundle = &bundles[index as usize];
+                (0..LANES).any(|lane| self.island_of(bundle, lane).is_some_and(|island| is_open[island]))
+            });
+        }
+    }
+
+    /// These bodies, and those that they touch, by contacts of the candidates.
+    fn with_neighbors(&self, bodies: &[bool], candidates: &Candidates) -> Vec<bool> {
         let mut result = bodies.to_vec();
-        for Color { bundles, .. } in &self.colors {
-            let found = self.pool.ranges(bundles.len(), GLANCES, |range| {
-                let lanes = bundles[range].iter().flat_map(|bundle| bundle.a.into_iter().zip(bundle.b));
+        for (Color { bundles, .. }, candidates) in self.colors.iter().zip(candidates) {
+            let found = self.pool.ranges(candidates.len(), GLANCES, |range| {
+                let bundles = candidates[range].iter().map(|&index| &bundles[index as usize]);
+                let lanes = bundles.flat_map(|bundle| bundle.a.into_iter().zip(bundle.b));
                 let reached = lanes.filter(|&(a, b)| bodies[a as usize] != bodies[b as usize]);
                 reached.flat_map(|(a, b)| [a, b]).collect::<Vec<u32>>()
             });
@@ -133,18 +159,22 @@ impl Graph {
         result
     }
 
-    /// The bundles with a contact of these bodies.
-    fn choose(&self, bodies: &[bool]) -> Vec<Chosen> {
+    /// Those of the candidates with a contact of these bodies.
+    fn choose(&self, bodies: &[bool], candidates: &Candidates) -> Vec<Chosen> {
         let concerned = |bundle: &Bundle| bundle.a.iter().chain(&bundle.b).any(|&row| bodies[row as usize]);
-        let of_color = |Color { bundles, .. }: &Color| {
-            let stretches = self.pool.ranges(bundles.len(), GLANCES, |range| {
-                bundles[range].iter().map(concerned).collect::<Vec<bool>>()
+        let of_color = |(Color { bundles, .. }, candidates): (&Color, &Vec<u32>)| {
+            let stretches = self.pool.ranges(candidates.len(), GLANCES, |range| {
+                let indices = candidates[range].iter().copied();
+                indices.filter(|&index| concerned(&bundles[index as usize])).collect::<Vec<u32>>()
             });
-            let is_chosen: Vec<bool> = stretches.into_iter().flatten().collect();
-            let count = is_chosen.iter().filter(|it| **it).count();
-            Chosen { is_chosen, count }
+            let mut chosen = Chosen { is_chosen: vec![false; bundles.len()], count: 0 };
+            for index in stretches.into_iter().flatten() {
+                chosen.is_chosen[index as usize] = true;
+                chosen.count += 1;
+            }
+            chosen
         };
-        self.colors.iter().map(of_color).collect()
+        self.colors.iter().zip(candidates).map(of_color).collect()
     }
 
     /// Solves those small quiet islands directly whose velocities do not agree after the first sweeps, which has left these bundles

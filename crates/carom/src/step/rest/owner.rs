@@ -44,7 +44,7 @@ pub(super) struct Touched {
 }
 
 impl Touched {
-    const NOTHING: Touched = Touched { count: 0, features: [[0; 2]; POINTS] };
+    pub const NOTHING: Touched = Touched { count: 0, features: [[0; 2]; POINTS] };
 
     pub fn of(manifold: &Manifold) -> Self {
         let mut touched = Self { count: manifold.points().len() as u8, ..Self::NOTHING };

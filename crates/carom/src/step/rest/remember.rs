@@ -5,12 +5,13 @@
 //! points start with impulses that push and turn both bodies as the old ones did.
 
 use super::Rest;
-use super::owner::keys;
-use crate::collide::{ContactPoint, Manifold};
+use super::owner::Touched;
+use crate::collide::Manifold;
 use crate::math::{DMat3, DVec3, any_tangent};
 use crate::solver::bundle::{POINTS, field};
-use crate::solver::graph::ContactId;
+use crate::solver::graph::{ContactId, Numbers};
 use crate::solver::prepare::{Remembered, middle};
+use smallvec::SmallVec;
 
 /// A manifold follows upon one whose normal makes an angle with its own that has at least this cosine.
 const ALIKE: f64 = 0.9;
@@ -21,134 +22,144 @@ const ROUNDING: f64 = 1e-6;
 /// Heirs that are no further apart than this (m) turn nothing.
 const NO_REACH: f64 = 1e-12;
 
-/// What a manifold exerted.
-pub(super) struct Past {
-    normal: DVec3,
-    points: [PastPoint; POINTS],
-    count: usize,
-    /// Where friction acted, and what it was, N·s.
-    middle: DVec3,
-    friction: DVec3,
-    /// N·m·s
-    twist: f64,
+/// Most pairs have no more contacts.
+const FEW: usize = 4;
+
+/// What the contacts of a pair exerted, each with the number of the manifold that follows upon it.
+pub(super) struct Legacy<'a> {
+    past: SmallVec<[(Past<'a>, Option<usize>); FEW]>,
+    /// Where the bodies' centres are.
+    centers: [DVec3; 2],
 }
 
-#[derive(Clone, Copy)]
-struct PastPoint {
-    /// Keys of what touched.
-    features: [u32; 2],
-    place: DVec3,
-    /// N·s
-    pressure: f64,
+/// What a contact exerted.
+struct Past<'a> {
+    numbers: Numbers<'a>,
+    /// Keys of what touched at each point.
+    features: &'a [[u32; 2]],
 }
 
 impl Rest {
-    /// What a contact exerts on bodies whose centres are at `centers`.
-    pub(super) fn past(&self, contact: ContactId, centers: [DVec3; 2]) -> Past {
-        let read = |field: usize| f64::from(self.graph.get(contact, field));
-        let vector = |field: usize| DVec3::new(read(field), read(field + 1), read(field + 2));
-        let (normal, first) = (vector(field::NORMAL), vector(field::TANGENT));
-        let second = normal.cross(first);
-        let outward = |v: DVec3| first * v.x + second * v.y + normal * v.z;
-        // Both bodies may have moved a little since: half way.
-        let place = |arm_a: usize, arm_b: usize| {
-            0.5 * (centers[0] + outward(vector(arm_a)) + centers[1] + outward(vector(arm_b)))
-        };
-        let mut points = [PastPoint::NONE; POINTS];
-        let touched = self.owners[contact.index()].touched.features();
-        for (index, (point, &features)) in points.iter_mut().zip(touched).enumerate() {
-            let at = |line: usize| field::of_point(index, line);
-            let place = place(at(field::ARM_A), at(field::ARM_B));
-            *point = PastPoint { features, place, pressure: read(at(field::IMPULSE)) };
+    /// What contacts leave to the manifolds that follow upon them, with what touches in these; the centres of the bodies are at
+    /// `centers`.
+    pub(super) fn legacy(
+        &self,
+        contacts: &[ContactId],
+        centers: [DVec3; 2],
+        manifolds: &[Manifold],
+        touched: &[Touched],
+    ) -> Legacy<'_> {
+        let past = contacts.iter().map(|&contact| {
+            let features = self.owners[contact.index()].touched.features();
+            let past = Past { numbers: self.graph.numbers(contact), features };
+            let follower = past.follower(manifolds, touched);
+            (past, follower)
+        });
+        Legacy { past: past.collect(), centers }
+    }
+}
+
+impl Legacy<'_> {
+    /// The impulses that a manifold starts from: those that push and turn as those upon which it follows did, as well as its points
+    /// can. Points of the same features have the same; what has pressed at points that are no more goes to the others.
+    pub fn left_to(&self, number: usize, manifold: &Manifold, touched: &Touched, margin: f64) -> Remembered {
+        let past =
+            || self.past.iter().filter(|(_, follower)| *follower == Some(number)).map(|(past, _)| past);
+        let points = manifold.points();
+        let mut remembered = Remembered::default();
+        if past().next().is_none() || points.is_empty() {
+            return remembered;
         }
-        Past {
-            normal,
-            points,
-            count: touched.len(),
-            middle: place(field::FRICTION_ARM_A, field::FRICTION_ARM_B),
-            friction: outward(DVec3::new(read(field::FRICTION), read(field::FRICTION + 1), 0.0)),
-            twist: read(field::TWIST),
+        let normal = manifold.normal;
+        let middle = middle(points, margin);
+        let mut lost: SmallVec<[(DVec3, f64); POINTS]> = SmallVec::new();
+        for old in past() {
+            for (index, features) in old.features.iter().enumerate() {
+                let pressure = old.pressure(index);
+                match touched.features().iter().position(|it| it == features) {
+                    Some(heir) => remembered.pressure[heir] += pressure,
+                    None => lost.push((old.place(index, self.centers) - middle, pressure)),
+                }
+            }
         }
-    }
-}
-
-/// The impulses that `manifolds` start from when they follow upon those of the `past`.
-pub(super) fn remembered(past: &[Past], manifolds: &[Manifold], margin: f64) -> Vec<Remembered> {
-    let follower = |old: &Past| {
-        let shared = |manifold: &Manifold| {
-            manifold.points().iter().filter(|point| old.points().iter().any(|it| it.is_of(point))).count()
-        };
-        let alike = |manifold: &Manifold| old.normal.dot(manifold.normal);
-        let rank = |manifold: &Manifold| (shared(manifold), alike(manifold));
-        (0..manifolds.len()).filter(|&number| alike(&manifolds[number]) > ALIKE).max_by(|&one, &other| {
-            let (one, other) = (rank(&manifolds[one]), rank(&manifolds[other]));
-            one.0.cmp(&other.0).then(one.1.total_cmp(&other.1))
-        })
-    };
-    let followers: Vec<Option<usize>> = past.iter().map(follower).collect();
-    let followed_by = |number: usize| {
-        let follows = move |&(_, &follower): &(&Past, &Option<usize>)| follower == Some(number);
-        past.iter().zip(&followers).filter(follows).map(|(old, _)| old)
-    };
-    manifolds
-        .iter()
-        .enumerate()
-        .map(|(number, manifold)| follow(followed_by(number), manifold, margin))
-        .collect()
-}
-
-impl Past {
-    /// Where it pressed.
-    fn points(&self) -> &[PastPoint] {
-        &self.points[..self.count]
-    }
-}
-
-impl PastPoint {
-    /// Fills the places that hold no point.
-    const NONE: PastPoint = PastPoint { features: [0; 2], place: DVec3::ZERO, pressure: 0.0 };
-
-    /// Whether it was the same features that touched.
-    fn is_of(&self, point: &ContactPoint) -> bool {
-        self.features == keys(point)
-    }
-}
-
-/// The impulses that push and turn as those of the `past` did, as well as the points of `manifold` can: those of the same
-/// features; what has pressed at points that are no more goes to the others.
-fn follow<'a>(past: impl Iterator<Item = &'a Past> + Clone, manifold: &Manifold, margin: f64) -> Remembered {
-    let points = manifold.points();
-    let mut remembered = Remembered::default();
-    if past.clone().next().is_none() || points.is_empty() {
-        return remembered;
-    }
-    let normal = manifold.normal;
-    let middle = middle(points, margin);
-    let mut lost = Vec::new();
-    for old in past.clone().flat_map(Past::points) {
-        match points.iter().position(|point| old.is_of(point)) {
-            Some(index) => remembered.pressure[index] += old.pressure,
-            None => lost.push((old.place, old.pressure)),
+        if lost.iter().any(|&(_, pressure)| pressure > 0.0) {
+            let touching = points.iter().filter(|point| point.separation <= margin).count();
+            let limit = if touching > 0 { margin } else { f64::INFINITY };
+            let heirs: SmallVec<[(usize, DVec3); POINTS]> = points
+                .iter()
+                .enumerate()
+                .filter(|(_, point)| point.separation <= limit)
+                .map(|(index, point)| (index, point.point - middle))
+                .collect();
+            inherit(&lost, &heirs, normal, &mut remembered.pressure);
         }
+        for old in past() {
+            let friction = old.friction();
+            let friction = friction - normal * friction.dot(normal);
+            remembered.friction += friction;
+            remembered.twist += old.twist() + normal.dot((old.middle(self.centers) - middle).cross(friction));
+        }
+        remembered
     }
-    if lost.iter().any(|&(_, pressure)| pressure > 0.0) {
-        let touching = points.iter().filter(|point| point.separation <= margin).count();
-        let limit = if touching > 0 { margin } else { f64::INFINITY };
-        let heirs: Vec<(usize, DVec3)> = points
-            .iter()
-            .enumerate()
-            .filter(|(_, point)| point.separation <= limit)
-            .map(|(index, point)| (index, point.point - middle))
-            .collect();
-        lost.iter_mut().for_each(|(place, _)| *place -= middle);
-        inherit(&lost, &heirs, normal, &mut remembered.pressure);
+}
+
+impl Past<'_> {
+    /// Of the manifolds whose normals are alike the one with most of its points, and of those the one whose normal is most so.
+    fn follower(&self, manifolds: &[Manifold], touched: &[Touched]) -> Option<usize> {
+        let normal = self.numbers.vector(field::NORMAL);
+        let mut best: Option<(usize, usize, f64)> = None;
+        for (number, (manifold, touched)) in manifolds.iter().zip(touched).enumerate() {
+            let alike = normal.dot(manifold.normal);
+            if alike > ALIKE {
+                let shared = touched.features().iter().filter(|it| self.features.contains(it)).count();
+                let is_better = |&(_, most, closest): &(usize, usize, f64)| {
+                    shared.cmp(&most).then(alike.total_cmp(&closest)).is_ge()
+                };
+                if best.as_ref().is_none_or(is_better) {
+                    best = Some((number, shared, alike));
+                }
+            }
+        }
+        best.map(|(number, ..)| number)
     }
-    for old in past {
-        let friction = old.friction - normal * old.friction.dot(normal);
-        remembered.friction += friction;
-        remembered.twist += old.twist + normal.dot((old.middle - middle).cross(friction));
+
+    /// A vector of the contact's frame in the world.
+    fn outward(&self, v: DVec3) -> DVec3 {
+        let (normal, first) = (self.numbers.vector(field::NORMAL), self.numbers.vector(field::TANGENT));
+        first * v.x + normal.cross(first) * v.y + normal * v.z
     }
-    remembered
+
+    /// Where two arms end. Both bodies may have moved a little since: half way.
+    fn end(&self, centers: [DVec3; 2], arm_a: usize, arm_b: usize) -> DVec3 {
+        let [a, b] = [arm_a, arm_b].map(|arm| self.outward(self.numbers.vector(arm)));
+        0.5 * (centers[0] + a + centers[1] + b)
+    }
+
+    /// Where it pressed at a point.
+    fn place(&self, point: usize, centers: [DVec3; 2]) -> DVec3 {
+        self.end(centers, field::of_point(point, field::ARM_A), field::of_point(point, field::ARM_B))
+    }
+
+    /// How it pressed there, N·s.
+    fn pressure(&self, point: usize) -> f64 {
+        self.numbers.get(field::of_point(point, field::IMPULSE))
+    }
+
+    /// Where friction acted.
+    fn middle(&self, centers: [DVec3; 2]) -> DVec3 {
+        self.end(centers, field::FRICTION_ARM_A, field::FRICTION_ARM_B)
+    }
+
+    /// What it was, N·s.
+    fn friction(&self) -> DVec3 {
+        let [first, second] = [field::FRICTION, field::FRICTION + 1].map(|field| self.numbers.get(field));
+        self.outward(DVec3::new(first, second, 0.0))
+    }
+
+    /// N·m·s
+    fn twist(&self) -> f64 {
+        self.numbers.get(field::TWIST)
+    }
 }
 
 /// Adds to the pressures of the heirs what pushes and turns as what was lost did: the smallest change that does so, as far as points

@@ -6,7 +6,6 @@
 
 use super::crowds::reach_in_crowd;
 use super::owner::{Manner, Owner, Touched};
-use super::remember::remembered;
 use super::work::fill;
 use super::{Rest, Span, horizon};
 use crate::bodies::{Bodies, ColliderRow};
@@ -18,6 +17,7 @@ use crate::solver::graph::ContactId;
 use crate::solver::prepare::{Side, Terms, fill_lane};
 use crate::step::pairs::Pairs;
 use crate::step::profile::{self, Phase};
+use smallvec::SmallVec;
 
 /// Motion of a body, as a share of its smallest collider's reach or in radians, after which its contacts are renewed: of one that lies or
 /// moves slowly. What a fast one does within a step may add up before, to the second at most; they are looked at closely again as it
@@ -33,6 +33,9 @@ const LOOKS: usize = 16;
 
 /// So many are looked at before their contacts are put in place: what waits for that has to be kept meanwhile.
 const AT_ONCE: usize = 512;
+
+/// Most pairs touch in no more manifolds.
+const FEW: usize = 4;
 
 /// What a pair's contacts are to be.
 struct View {
@@ -80,24 +83,24 @@ impl Rest {
 
         let terms =
             Terms { surface: pair.surface(bodies), margin, horizon: horizon(pair, grain, law), is_pressed };
-        let centers = [a, b].map(|collider| bodies.center_pose(collider).position);
-        let past: Vec<_> = pair.contacts.iter().map(|&contact| self.past(contact, centers)).collect();
-        let remembered = remembered(&past, &manifolds, margin);
-        let mut sides = [a, b].map(|collider| self.side(bodies, collider));
-        let poses = [a, b].map(|collider| bodies.center_pose(collider).then_local(&collider.local));
-        let mut contacts = Vec::with_capacity(manifolds.len());
-        for (manifold, remembered) in manifolds.iter().zip(&remembered) {
+        let centers = [bodies.center_pose(a).position, bodies.center_pose(b).position];
+        let touched: SmallVec<[Touched; FEW]> = manifolds.iter().map(Touched::of).collect();
+        let legacy = self.legacy(&pair.contacts, centers, &manifolds, &touched);
+        let mut sides = [self.side(bodies, a), self.side(bodies, b)];
+        let pose = |collider: &ColliderRow| bodies.center_pose(collider).then_local(&collider.local);
+        let poses = [pose(a), pose(b)];
+        // Filled where they stand: they are too large to be handed on.
+        let mut contacts = vec![(Touched::NOTHING, NO_CONTACT); manifolds.len()];
+        for (number, ((contact, lane), manifold)) in contacts.iter_mut().zip(&manifolds).enumerate() {
             let (normal, points) = (manifold.normal, manifold.points());
             for (side, (collider, outward)) in [(a, normal), (b, -normal)].into_iter().enumerate() {
                 let pose = &poses[side];
                 let place = pose.inverse_transform_point(points[0].point);
                 sides[side].roundness = collider.shape.roundness(place, pose.rotation.conjugate() * outward);
             }
-            // Filled where it stands: it is too large to be handed on.
-            contacts.push((Touched::of(manifold), NO_CONTACT));
-            if let Some((_, lane)) = contacts.last_mut() {
-                fill_lane(lane, (normal, points), &sides, &terms, remembered);
-            }
+            *contact = touched[number];
+            let remembered = legacy.left_to(number, manifold, contact, margin);
+            fill_lane(lane, (normal, points), &sides, &terms, &remembered);
         }
         Some(View { contacts, is_pressed })
     }

@@ -24,7 +24,6 @@ pub(super) struct Cut {
 }
 
 /// The outline being cut, and room for a cut.
-#[derive(Default)]
 pub(super) struct Room {
     pub shape: Vec<Cut>,
     /// What a cut leaves of it.
@@ -33,7 +32,15 @@ pub(super) struct Room {
     depths: Vec<f64>,
 }
 
+impl Default for Room {
+    fn default() -> Self {
+        Self::NONE
+    }
+}
+
 impl Room {
+    pub const NONE: Room = Room { shape: Vec::new(), left: Vec::new(), depths: Vec::new() };
+
     /// For another outline.
     pub fn clear(&mut self) {
         self.shape.clear();
@@ -45,7 +52,7 @@ impl Room {
 
 /// The outline that cuts: its sides in the plane across the normal, its own plane in space.
 pub(super) struct Knife {
-    places: [(f64, f64); CORNERS],
+    places: [(f64, f64, f64); CORNERS],
     count: usize,
     /// 1 if the sides run anticlockwise seen against the normal, else −1.
     turn: f64,
@@ -77,9 +84,8 @@ impl Knife {
         }
         let slope = (-area.x / area.z, -area.y / area.z);
         let offset = origin.2 - slope.0 * origin.0 - slope.1 * origin.1;
-        let extent = (1..count).map(|k| from_origin(k).length()).fold(0.0, f64::max);
-        let places = points.map(|(x, y, _)| (x, y));
-        Some(Self { places, count, turn: area.z.signum(), slope, offset, tolerance: 1e-9 * extent })
+        let extent = (1..count).map(|k| from_origin(k).length_squared()).fold(0.0, f64::max).sqrt();
+        Some(Self { places: points, count, turn: area.z.signum(), slope, offset, tolerance: 1e-9 * extent })
     }
 
     pub fn height(&self, x: f64, y: f64) -> f64 {

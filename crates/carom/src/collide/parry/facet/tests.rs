@@ -1,6 +1,7 @@
 //! parry finds the same, and so does a look along many directions.
 
 use super::super::axis;
+use super::super::clip::{self, Candidates};
 use super::super::convex::{Convex, Core};
 use super::*;
 use crate::math::{DQuat, Pose, rotation_from_vector};
@@ -101,6 +102,42 @@ fn kernels_agree_with_parry() {
         }
     }
     assert!(apart > 4000 && over > 4000, "{apart} {over}");
+}
+
+/// Whether anything is left when the sides of a triangle and a shape that face each other are cut to each other.
+fn has_contacts(triangle: &Convex, convex: &Convex, pose: &Pose, normal: DVec3) -> bool {
+    Candidates::with(f64::MAX, |candidates| {
+        clip::contacts(triangle, convex, pose, normal, candidates);
+        candidates.least_separation() < f64::INFINITY
+    })
+}
+
+#[test]
+fn cutting_leaves_nothing_of_what_is_beside() {
+    let mut number = numbers(3);
+    let (mut beside, mut empty, mut over) = (0, 0, 0);
+    for _ in 0..4000 {
+        let corners = [0; 3].map(|_| vector(&mut number) * 1.5);
+        let [a, b, c] = corners;
+        let across = (b - a).cross(c - a);
+        if across.length() < 0.05 {
+            continue;
+        }
+        let facet = Facet::new(corners, across.normalize()).unwrap();
+        let triangle = triangle_of(corners);
+        for shape in &shapes() {
+            let convex = Convex::of(shape).unwrap();
+            let pose = Pose::new(vector(&mut number) * 2.0, rotation_from_vector(vector(&mut number) * 3.0));
+            let normal = vector(&mut number).normalize();
+            let is_beside = Form::with(&convex.core, &pose, |form| facet.is_beside(form.unwrap(), normal));
+            let has_contacts = has_contacts(&triangle, &convex, &pose, normal);
+            assert!(!(is_beside && has_contacts), "{shape:?} {pose:?} {corners:?} {normal}");
+            beside += u32::from(is_beside);
+            empty += u32::from(!has_contacts);
+            over += u32::from(has_contacts);
+        }
+    }
+    assert!(over > 2000 && 2 * beside > empty, "{beside} of {empty} are told; {over} are over the triangle");
 }
 
 #[test]

@@ -28,7 +28,7 @@ impl Facet {
         let local = |point: DVec3| solid.back * (point - solid.shift);
         let corners = self.corners.map(local);
         let within = local(within);
-        let tolerance = ROUNDING * (self.size + shape.size());
+        let tolerance = ROUNDING * (self.size() + shape.size());
         let over = |normal: DVec3| (solid.farthest(-normal).1 - self.corners[0]).dot(normal);
         let (above, below) = (over(self.normal), over(-self.normal));
         let own = if below > above { (below, -self.normal) } else { (above, self.normal) };
