@@ -25,6 +25,7 @@ use crate::collide::{self, ContactPoint, Manifold, Wanted, lies_beyond_a_side};
 use crate::math::{DVec3, Pose};
 use crate::shape::Shape;
 use crate::step::pairs::Pairs;
+use smallvec::SmallVec;
 use std::cmp::Ordering;
 
 /// Tiles may be so far apart, as a share of the reach of what slides over them.
@@ -71,6 +72,20 @@ struct Plane {
     separation: f64,
 }
 
+/// Where a manifold's surfaces are nearest.
+struct Place {
+    point: DVec3,
+    /// How much further away than its contacts another collider may be, m.
+    room: f64,
+}
+
+impl Place {
+    fn of(manifold: &Manifold) -> Option<Self> {
+        let contact = manifold.points().iter().min_by(nearest)?;
+        Some(Self { point: contact.point, room: 1.5 * contact.separation.abs() })
+    }
+}
+
 /// Takes out of the manifolds of `approach` at a time, found with a margin (m), those that contacts of other pairs make idle.
 /// All places are relative to the approach's origin.
 pub(super) fn leave_out_idle(
@@ -114,21 +129,17 @@ impl Seam<'_> {
         let (a, b) = approach.keys;
         let bodies = approach.bodies;
         let rows = [approach.a.row, approach.b.row];
-        let nearest: Vec<ContactPoint> = manifolds
-            .iter()
-            .filter_map(|manifold| manifold.points().iter().min_by(nearest))
-            .copied()
-            .collect();
+        let places: SmallVec<[Place; 4]> = manifolds.iter().filter_map(Place::of).collect();
         let mut found: Vec<Beside> = Vec::new();
         for row in rows.into_iter().filter(|&row| row != WORLD_ROW && bodies.constants[row].is_movable()) {
             for ((first, second), index) in pairs.each_of_row(row) {
-                let shares = |key: u32| first == key || second == key;
-                if shares(a) == shares(b) {
+                let (shares_first, shares_second) = (first == a || second == a, first == b || second == b);
+                if shares_first == shares_second {
                     continue;
                 }
-                let shared = if shares(a) { a } else { b };
+                let shared = if shares_first { a } else { b };
                 let other = if first == shared { second } else { first };
-                if !self.comes_near(other, shared == a, &nearest) {
+                if !self.comes_near(other, shares_first, &places) {
                     continue;
                 }
                 let pair = &pairs[index];
@@ -138,22 +149,28 @@ impl Seam<'_> {
                     && (pair.rests || may_touch())
                     && !found.iter().any(|beside| beside.other == other)
                 {
-                    found.push(Beside { other, shares_first: shared == a, planes: None });
+                    found.push(Beside { other, shares_first, planes: None });
                 }
             }
         }
         found
     }
 
-    /// Whether a collider may come so near one of these contacts that it can make it idle.
-    fn comes_near(&self, other: u32, shares_first: bool, contacts: &[ContactPoint]) -> bool {
+    /// Whether a collider may come so near one of these places that it can make its contact idle.
+    #[inline]
+    fn comes_near(&self, other: u32, shares_first: bool, places: &[Place]) -> bool {
         let Some(other) = self.approach.bodies.collider(other) else { return false };
         let center = self.approach.center_at(other, self.time);
-        let reach = (1.0 + SLACK) * other.reach + GAP * self.reach(other, shares_first);
-        contacts.iter().any(|contact| {
-            let far = reach + 1.5 * contact.separation.abs();
-            center.distance_squared(contact.point) <= far * far
-        })
+        let own_reach = (1.0 + SLACK) * other.reach;
+        let comes_within = |reach: f64, place: &Place| {
+            let far = own_reach + GAP * reach + place.room;
+            center.distance_squared(place.point) <= far * far
+        };
+        let most = self.sides(shares_first).0.reach;
+        // Most are so far away that it does not matter what is small against them.
+        places
+            .iter()
+            .any(|place| comes_within(most, place) && comes_within(self.reach(other, shares_first), place))
     }
 
     /// What is small against it is small for the three: the two of the approach, one of which is shared, and the `other` one.
