@@ -11,6 +11,7 @@ use crate::math::{DMat3, DVec3, any_tangent};
 use crate::solver::bundle::{POINTS, field};
 use crate::solver::graph::ContactId;
 use crate::solver::prepare::{Remembered, middle};
+use smallvec::SmallVec;
 
 /// A manifold follows upon one whose normal makes an angle with its own that has at least this cosine.
 const ALIKE: f64 = 0.9;
@@ -73,7 +74,7 @@ impl Rest {
 }
 
 /// The impulses that `manifolds` start from when they follow upon those of the `past`.
-pub(super) fn remembered(past: &[Past], manifolds: &[Manifold], margin: f64) -> Vec<Remembered> {
+pub(super) fn remembered(past: &[Past], manifolds: &[Manifold], margin: f64) -> SmallVec<[Remembered; 2]> {
     let follower = |old: &Past| {
         let shared = |manifold: &Manifold| {
             manifold.points().iter().filter(|point| old.points().iter().any(|it| it.is_of(point))).count()
@@ -85,7 +86,7 @@ pub(super) fn remembered(past: &[Past], manifolds: &[Manifold], margin: f64) -> 
             one.0.cmp(&other.0).then(one.1.total_cmp(&other.1))
         })
     };
-    let followers: Vec<Option<usize>> = past.iter().map(follower).collect();
+    let followers: SmallVec<[Option<usize>; 4]> = past.iter().map(follower).collect();
     let followed_by = |number: usize| {
         let follows = move |&(_, &follower): &(&Past, &Option<usize>)| follower == Some(number);
         past.iter().zip(&followers).filter(follows).map(|(old, _)| old)
@@ -124,7 +125,7 @@ fn follow<'a>(past: impl Iterator<Item = &'a Past> + Clone, manifold: &Manifold,
     }
     let normal = manifold.normal;
     let middle = middle(points, margin);
-    let mut lost = Vec::new();
+    let mut lost: SmallVec<[(DVec3, f64); POINTS]> = SmallVec::new();
     for old in past.clone().flat_map(Past::points) {
         match points.iter().position(|point| old.is_of(point)) {
             Some(index) => remembered.pressure[index] += old.pressure,
@@ -134,7 +135,7 @@ fn follow<'a>(past: impl Iterator<Item = &'a Past> + Clone, manifold: &Manifold,
     if lost.iter().any(|&(_, pressure)| pressure > 0.0) {
         let touching = points.iter().filter(|point| point.separation <= margin).count();
         let limit = if touching > 0 { margin } else { f64::INFINITY };
-        let heirs: Vec<(usize, DVec3)> = points
+        let heirs: SmallVec<[(usize, DVec3); POINTS]> = points
             .iter()
             .enumerate()
             .filter(|(_, point)| point.separation <= limit)
