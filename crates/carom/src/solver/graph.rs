@@ -166,6 +166,12 @@ impl Graph {
         self.bundle(id).map_or(0.0, |(bundle, lane)| bundle.get(lane, field))
     }
 
+    /// The same for who asks for many of them.
+    pub fn numbers(&self, id: ContactId) -> impl Fn(usize) -> f32 {
+        let found = self.bundle(id);
+        move |field| found.map_or(0.0, |(bundle, lane)| bundle.get(lane, field))
+    }
+
     /// Whether all points of a contact are out of its reach.
     pub fn has_left(&self, id: ContactId) -> bool {
         self.bundle(id).is_some_and(|(bundle, lane)| bundle.has_left(lane))

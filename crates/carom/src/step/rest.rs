@@ -231,7 +231,7 @@ impl Rest {
     /// Whether all points of a pair that rests are so near that the contacts have them all.
     pub fn is_closed(&self, pair: &Pair) -> bool {
         pair.contacts.iter().all(|&contact| {
-            let get = |field: usize| self.graph.get(contact, field);
+            let get = self.graph.numbers(contact);
             get(field::WIDEST) <= get(field::HORIZON)
         })
     }
@@ -279,7 +279,8 @@ impl Rest {
             (state.velocity, bodies.constants[row].angular_velocity(state))
         });
         pair.contacts.iter().any(|&contact| {
-            let get = |field: usize| f64::from(self.graph.get(contact, field));
+            let numbers = self.graph.numbers(contact);
+            let get = |field: usize| f64::from(numbers(field));
             let axis = |field: usize| DVec3::new(get(field), get(field + 1), get(field + 2));
             let (normal, first) = (axis(field::NORMAL), axis(field::TANGENT));
             let second = normal.cross(first);

@@ -46,7 +46,8 @@ struct PastPoint {
 impl Rest {
     /// What a contact exerts on bodies whose centres are at `centers`.
     pub(super) fn past(&self, contact: ContactId, centers: [DVec3; 2]) -> Past {
-        let read = |field: usize| f64::from(self.graph.get(contact, field));
+        let numbers = self.graph.numbers(contact);
+        let read = |field: usize| f64::from(numbers(field));
         let vector = |field: usize| DVec3::new(read(field), read(field + 1), read(field + 2));
         let (normal, first) = (vector(field::NORMAL), vector(field::TANGENT));
         let second = normal.cross(first);
