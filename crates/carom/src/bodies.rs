@@ -121,6 +121,13 @@ pub(crate) struct ColliderRow {
     pub sensor: bool,
 }
 
+/// Of a collider what many ask that look for what is near: its body's row, and its reach (m).
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Outline {
+    pub row: u32,
+    pub reach: f64,
+}
+
 /// Whose collider it is: the body's slot and row, and its number there.
 struct Owner {
     slot: u32,
@@ -162,6 +169,8 @@ pub(crate) struct Bodies {
     /// The slot of each row.
     pub slot_of_row: Vec<u32>,
     colliders: Vec<Option<ColliderRow>>,
+    /// Of each collider, last known.
+    outlines: Vec<Outline>,
     free_colliders: Vec<u32>,
 }
 
@@ -184,6 +193,7 @@ impl Bodies {
             forces: vec![(DVec3::ZERO, DVec3::ZERO)],
             slot_of_row: vec![u32::MAX],
             colliders: Vec::new(),
+            outlines: Vec::new(),
             free_colliders: Vec::new(),
         }
     }
@@ -283,11 +293,13 @@ impl Bodies {
             filter: collider.filter.clone(),
             sensor: collider.sensor,
         };
+        let outline = Outline { row: owner.row as u32, reach };
         if let Some(key) = self.free_colliders.pop() {
-            self.colliders[key as usize] = Some(entry);
+            (self.colliders[key as usize], self.outlines[key as usize]) = (Some(entry), outline);
             key
         } else {
             self.colliders.push(Some(entry));
+            self.outlines.push(outline);
             (self.colliders.len() - 1) as u32
         }
     }
@@ -336,6 +348,7 @@ impl Bodies {
             for &key in &record.colliders {
                 if let Some(collider) = &mut self.colliders[key as usize] {
                     collider.row = row;
+                    self.outlines[key as usize].row = row as u32;
                 }
             }
         }
@@ -396,6 +409,12 @@ impl Bodies {
     #[inline]
     pub fn collider(&self, key: u32) -> Option<&ColliderRow> {
         self.colliders.get(key as usize)?.as_ref()
+    }
+
+    /// The outline of a collider that there is.
+    #[inline]
+    pub fn outline(&self, key: u32) -> Outline {
+        self.outlines[key as usize]
     }
 
     /// How far (m, rad) the body's path has led by `time` within the step, at least: grows with time, and two times on the

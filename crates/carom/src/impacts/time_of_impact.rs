@@ -338,9 +338,9 @@ impl<'a> Approach<'a> {
             fastest
         };
         // Mostly nothing closes, and nobody needs to know what is idle.
-        fastest(&manifolds)?;
-        leave_out_idle(self, pairs, (time, self.tolerance), &mut manifolds);
-        fastest(&manifolds)
+        let touch = fastest(&manifolds)?;
+        let may_be_idle = leave_out_idle(self, pairs, (time, self.tolerance), &mut manifolds);
+        if may_be_idle { fastest(&manifolds) } else { Some(touch) }
     }
 }
 
