@@ -126,6 +126,13 @@ pub(crate) struct ColliderRow {
     pub sensor: bool,
 }
 
+/// Of a collider what many ask that look for what is near: its body's row, and its reach (m).
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Outline {
+    pub row: u32,
+    pub reach: f64,
+}
+
 /// Whose collider it is: the body's slot and row, and its number there.
 struct Owner {
     slot: u32,
@@ -167,6 +174,8 @@ pub(crate) struct Bodies {
     /// The slot of each row.
     pub slot_of_row: Vec<u32>,
     colliders: Vec<Option<ColliderRow>>,
+    /// Of each collider, last known.
+    outlines: Vec<Outline>,
     free_colliders: Vec<u32>,
 }
 
@@ -189,6 +198,7 @@ impl Bodies {
             forces: Forces::default(),
             slot_of_row: vec![u32::MAX],
             colliders: Vec::new(),
+            outlines: Vec::new(),
             free_colliders: Vec::new(),
         }
     }
@@ -288,11 +298,13 @@ impl Bodies {
             filter: collider.filter.clone(),
             sensor: collider.sensor,
         };
+        let outline = Outline { row: owner.row as u32, reach };
         if let Some(key) = self.free_colliders.pop() {
-            self.colliders[key as usize] = Some(entry);
+            (self.colliders[key as usize], self.outlines[key as usize]) = (Some(entry), outline);
             key
         } else {
             self.colliders.put(Some(entry));
+            self.outlines.put(outline);
             (self.colliders.len() - 1) as u32
         }
     }
@@ -341,6 +353,7 @@ impl Bodies {
             for &key in &record.colliders {
                 if let Some(collider) = &mut self.colliders[key as usize] {
                     collider.row = row;
+                    self.outlines[key as usize].row = row as u32;
                 }
             }
         }
@@ -401,6 +414,12 @@ impl Bodies {
     #[inline]
     pub fn collider(&self, key: u32) -> Option<&ColliderRow> {
         self.colliders.get(key as usize)?.as_ref()
+    }
+
+    /// The outline of a collider that there is.
+    #[inline]
+    pub fn outline(&self, key: u32) -> Outline {
+        self.outlines[key as usize]
     }
 
     /// How far (m, rad) the body's path has led by `time` within the step, at least: grows with time, and two times on the

@@ -24,7 +24,8 @@
 use crate::fault;
 use crate::mass::BodyMass;
 use crate::math::{
-    DMat3, DQuat, DVec3, decay_fraction, decay_fractions, rotated_diagonal, rotation_from_vector, sin_cos,
+    DMat3, DQuat, DVec3, after_inner, decay_fraction, decay_fractions, rotated_diagonal,
+    rotation_from_vector, sin_cos,
 };
 
 /// Where a rigid body is and how it moves: the state that a step advances, in double precision.
@@ -116,6 +117,12 @@ impl Rotor {
         inverse.x == inverse.y && inverse.y == inverse.z
     }
 
+    /// The principal axes in the world of a body in this orientation.
+    #[inline]
+    fn axes(&self, rotation: DQuat) -> DQuat {
+        after_inner(rotation, self.principal)
+    }
+
     fn common(&self) -> f64 {
         self.inverse_moments[3 - self.rest_axis - self.top_axis]
     }
@@ -145,7 +152,7 @@ impl Constants {
 
     /// Takes the part of `angular_velocity` about axes of infinite inertia as the body's driven spin.
     pub fn drive(&mut self, rotation: DQuat, angular_velocity: DVec3) {
-        let local = (rotation * self.rotor.principal).conjugate() * angular_velocity;
+        let local = self.rotor.axes(rotation).conjugate() * angular_velocity;
         self.driven_spin = DVec3::select(self.rotor.inverse_moments.cmpeq(DVec3::ZERO), local, DVec3::ZERO);
     }
 
@@ -161,7 +168,7 @@ impl Constants {
         if self.rotor.is_isotropic() {
             return DMat3::from_diagonal(inverse_moments);
         }
-        rotated_diagonal(rotation * self.rotor.principal, inverse_moments)
+        rotated_diagonal(self.rotor.axes(rotation), inverse_moments)
     }
 
     /// The inertia tensor in the world, kg·m², zero on axes of infinite inertia.
@@ -170,7 +177,7 @@ impl Constants {
         if self.rotor.is_isotropic() {
             return DMat3::from_diagonal(moments);
         }
-        rotated_diagonal(rotation * self.rotor.principal, moments)
+        rotated_diagonal(self.rotor.axes(rotation), moments)
     }
 
     /// `ω = R I⁻¹Rᵀ L`, with the driven spin where the inertia is infinite; rad/s.
@@ -183,7 +190,7 @@ impl Constants {
     }
 
     fn anisotropic_velocity(&self, rotation: DQuat, momentum: DVec3) -> DVec3 {
-        let axes = rotation * self.rotor.principal;
+        let axes = self.rotor.axes(rotation);
         axes * ((axes.conjugate() * momentum) * self.rotor.inverse_moments + self.driven_spin)
     }
 
@@ -232,7 +239,7 @@ impl Constants {
 
     /// The principal axes in the world.
     pub fn principal_axes(&self, rotation: DQuat) -> DMat3 {
-        DMat3::from_quat(rotation * self.rotor.principal)
+        DMat3::from_quat(self.rotor.axes(rotation))
     }
 
     /// Whether the body turns about all axes alike, so that turning does not change its angular velocity.
@@ -243,7 +250,7 @@ impl Constants {
 
     /// The driven spin in the world, rad/s.
     pub fn driven_velocity(&self, rotation: DQuat) -> DVec3 {
-        rotation * self.rotor.principal * self.driven_spin
+        self.rotor.axes(rotation) * self.driven_spin
     }
 
     /// What of an angular impulse (world axes) turns the body: nothing about axes of infinite inertia.
@@ -252,7 +259,7 @@ impl Constants {
         if finite.all() {
             return impulse;
         }
-        let axes = rotation * self.rotor.principal;
+        let axes = self.rotor.axes(rotation);
         axes * DVec3::select(finite, axes.conjugate() * impulse, DVec3::ZERO)
     }
 
@@ -376,9 +383,8 @@ fn turn(rotation: DQuat, momentum: DVec3, constants: &Constants, time: f64) -> D
         let [x, y, z] = (constants.anisotropic_velocity(rotation, momentum) * (0.5 * time)).to_array();
         return (DQuat::from_xyzw(x, y, z, 1.0) * rotation).normalize();
     }
-    let mut axes = rotation * rotor.principal;
     let driven = rotation_from_vector(constants.driven_spin * (0.5 * time));
-    axes *= driven;
+    let axes = after_inner(rotor.axes(rotation), driven);
 
     let common = rotor.common();
     let mut local = axes.conjugate() * momentum;
@@ -387,7 +393,8 @@ fn turn(rotation: DQuat, momentum: DVec3, constants: &Constants, time: f64) -> D
     let mut spin = DQuat::IDENTITY;
     let about = |spin: &DQuat| {
         let about_momentum = rotation_from_vector(momentum * (common * time));
-        (about_momentum * axes * *spin * driven * rotor.principal.conjugate()).normalize()
+        let turned = after_inner(about_momentum * axes * *spin, driven);
+        after_inner(turned, rotor.principal.conjugate()).normalize()
     };
     if rest == 0.0 && top == 0.0 {
         return about(&spin);

@@ -38,7 +38,18 @@ impl Pose {
     }
 
     /// `self` after `inner`: takes `inner`'s local coordinates to `self`'s outer ones.
+    #[inline]
     pub fn then_local(&self, inner: &Pose) -> Pose {
+        // Most colliders sit at the middle of their bodies, and what they sit at changes nothing.
+        let has_sign = self.position.to_array().into_iter().all(|x| x.to_bits() != NEGATIVE_ZERO);
+        if *inner == Pose::IDENTITY && has_sign && is_tilted(self.rotation) {
+            *self
+        } else {
+            self.after(inner)
+        }
+    }
+
+    fn after(&self, inner: &Pose) -> Pose {
         Pose { position: self.transform_point(inner.position), rotation: self.rotation * inner.rotation }
     }
 
@@ -49,6 +60,21 @@ impl Pose {
             rotation: self.rotation.conjugate() * other.rotation,
         }
     }
+}
+
+/// The bits of −0.
+const NEGATIVE_ZERO: u64 = 1 << 63;
+
+/// Whether no component of a rotation is 0, so that the product with the identity has all of its bits.
+#[inline]
+fn is_tilted(rotation: DQuat) -> bool {
+    rotation.to_array().into_iter().all(|component| component != 0.0)
+}
+
+/// `rotation · inner`, bit by bit; the sooner where `inner` is the identity, as principal axes mostly are.
+#[inline]
+pub(crate) fn after_inner(rotation: DQuat, inner: DQuat) -> DQuat {
+    if inner == DQuat::IDENTITY && is_tilted(rotation) { rotation } else { rotation * inner }
 }
 
 /// `R · diagonal · Rᵀ`: a tensor given by its principal values, in the axes that `rotation` leads to.
@@ -78,21 +104,36 @@ pub fn sin_cos(angle: f64) -> (f64, f64) {
     const ROUNDED: f64 = 1.5 * (1_u64 << 52) as f64;
     const HALF_PI_HIGH: f64 = 1.570_796_326_734_125_6;
     const HALF_PI_LOW: f64 = 6.077_100_506_506_192e-11;
-    let quarter = (angle * std::f64::consts::FRAC_2_PI + ROUNDED) - ROUNDED;
-    let x = (angle - quarter * HALF_PI_HIGH) - quarter * HALF_PI_LOW;
-    let xx = x * x;
-    let (mut sine, mut cosine) = (0.0, 0.0);
-    for n in (0..9).rev() {
-        sine = INVERSE_FACTORIALS[2 * n + 1] - sine * xx;
-        cosine = INVERSE_FACTORIALS[2 * n] - cosine * xx;
+    let quarters = angle * std::f64::consts::FRAC_2_PI;
+    if quarters.abs() < 0.5 {
+        // As below, where −0 becomes 0.
+        return sin_cos_of_small(angle + 0.0);
     }
-    sine *= x;
+    let quarter = (quarters + ROUNDED) - ROUNDED;
+    let x = (angle - quarter * HALF_PI_HIGH) - quarter * HALF_PI_LOW;
+    let (sine, cosine) = sin_cos_of_small(x);
     match quarter as i64 & 3 {
         0 => (sine, cosine),
         1 => (cosine, -sine),
         2 => (-sine, -cosine),
         _ => (-cosine, sine),
     }
+}
+
+/// The same up to an angle of about π/4.
+#[inline]
+fn sin_cos_of_small(x: f64) -> (f64, f64) {
+    let xx = x * x;
+    if xx <= SMALL * SMALL {
+        // To 2e-22.
+        return (x * (1.0 - xx * (1.0 / 6.0 - xx / 120.0)), 1.0 - xx * (0.5 - xx / 24.0));
+    }
+    let (mut sine, mut cosine) = (0.0, 0.0);
+    for n in (0..9).rev() {
+        sine = INVERSE_FACTORIALS[2 * n + 1] - sine * xx;
+        cosine = INVERSE_FACTORIALS[2 * n] - cosine * xx;
+    }
+    (sine * x, cosine)
 }
 
 /// `(1 − e⁻ˣ)/x` for x ≥ 0: 1 at zero, to about 1e-15. The time that a damped motion still has, over the time that passes.
@@ -216,6 +257,30 @@ mod tests {
             }
             for (found, truth) in decay_fractions(x).into_iter().zip(truth) {
                 assert!((found - truth).abs() < 1e-11, "{x}: {found} is {truth}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_sits_in_the_middle_is_where_its_body_is() {
+        let tilted = rotation_from_vector(DVec3::new(0.3, -0.2, 0.9));
+        let halves = [DQuat::from_xyzw(0.0, -0.0, 1.0, 0.0), DQuat::from_xyzw(-0.0, 0.6, -0.8, 0.0)];
+        let zeros = DVec3::new(-0.0, 0.0, -3.0);
+        let bits = |pose: Pose| {
+            let (position, rotation) = (pose.position.to_array(), pose.rotation.to_array());
+            (position.map(f64::to_bits), rotation.map(f64::to_bits))
+        };
+        for rotation in [tilted, -tilted, DQuat::IDENTITY, -DQuat::IDENTITY, halves[0], halves[1]] {
+            for position in [DVec3::ONE, zeros, -zeros] {
+                let pose = Pose::new(position, rotation);
+                for inner in [DVec3::ZERO, -DVec3::ZERO, DVec3::X] {
+                    let inner = Pose::new(inner, DQuat::IDENTITY);
+                    assert_eq!(bits(pose.then_local(&inner)), bits(pose.after(&inner)), "{pose:?}");
+                }
+            }
+            for inner in [DQuat::IDENTITY, DQuat::IDENTITY.conjugate(), tilted] {
+                let (quick, full) = (after_inner(rotation, inner), rotation * inner);
+                assert_eq!(quick.to_array().map(f64::to_bits), full.to_array().map(f64::to_bits));
             }
         }
     }

@@ -99,13 +99,16 @@ struct Vertex {
 }
 
 /// The polygon: each clip of a convex polygon adds one corner at most.
-#[derive(Clone, Copy)]
 struct Polygon {
     vertices: [Vertex; 8],
     count: usize,
 }
 
 impl Polygon {
+    fn vertices(&self) -> &[Vertex] {
+        &self.vertices[..self.count]
+    }
+
     fn push(&mut self, vertex: Vertex) {
         // Rounding on a sliver may cut a border twice; its points are there already.
         if self.count < self.vertices.len() {
@@ -131,54 +134,72 @@ pub(crate) fn overlap(reference: &Block, incident: &Block, normal: DVec3, overla
     let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
     let incident_corners = cuboid::face_corners(cuboid::facing(-incident.components(normal)));
 
-    let vertex = |corner: u8| {
-        let place = incident.place(cuboid::corner(incident_corners[usize::from(corner)], incident.half));
-        let local = reference.local(place);
-        let height = local[axis] * upward[axis].signum() - reference.half[axis];
-        let separation = height / upward[axis].abs();
-        let foot = local - upward * separation;
-        Vertex { foot: [foot[u], foot[v]], separation, corner: Some(corner), side: Side::Incident(corner) }
+    // As `incident.place` and `reference.local` have it, without what all corners share.
+    let edges: [DVec3; 3] = std::array::from_fn(|k| incident.axes[k] * incident.half[k]);
+    let [across_u, across_v, along] = [u, v, axis].map(|k| (reference.axes[k], upward[k]));
+    let (sign, steepness, height) = (along.1.signum(), along.1.abs(), reference.half[axis]);
+    let vertex = |number: u8| {
+        let corner = incident_corners[usize::from(number)];
+        let side = |k: usize| if corner >> k & 1 == 1 { edges[k] } else { -edges[k] };
+        let from_center = incident.center + (side(0) + side(1) + side(2)) - reference.center;
+        let separation = (from_center.dot(along.0) * sign - height) / steepness;
+        let foot = [across_u, across_v].map(|(way, rise)| from_center.dot(way) - rise * separation);
+        Vertex { foot, separation, corner: Some(number), side: Side::Incident(number) }
     };
     let [first, second, third, fourth] = [0, 1, 2, 3].map(vertex);
     let vertices = [first, second, third, fourth, first, first, first, first];
-    let mut polygon = Polygon { vertices, count: 4 };
+    let (mut one, mut other) = (Polygon { vertices, count: 4 }, Polygon { vertices, count: 0 });
+    let (mut polygon, mut clipped) = (&mut one, &mut other);
     let tolerance = 1e-10 * reference.half.max_element().min(incident.half.max_element());
     for (direction, limit) in [(0, reference.half[u]), (1, reference.half[v])] {
         for positive in [false, true] {
-            clip(&mut polygon, (direction, positive), limit, tolerance);
+            if clip(polygon, (direction, positive), (limit, tolerance), clipped) {
+                std::mem::swap(&mut polygon, &mut clipped);
+            }
         }
     }
 
     overlap.count = polygon.count;
-    for index in 0..polygon.count {
-        let vertex = &polygon.vertices[index];
-        let before = polygon.vertices[if index > 0 { index - 1 } else { polygon.count - 1 }].side;
+    let mut before = polygon.vertices().last().map_or(Side::Incident(0), |vertex| vertex.side);
+    for (vertex, point) in polygon.vertices().iter().zip(&mut overlap.points) {
         let mut foot = DVec3::ZERO;
         (foot[u], foot[v]) = (vertex.foot[0], vertex.foot[1]);
-        foot[axis] = reference.half[axis] * upward[axis].signum();
+        foot[axis] = height * sign;
         let (feature_a, feature_b) = features(vertex, before, (face, foot), &incident_corners);
-        overlap.points[index] = ContactPoint {
+        *point = ContactPoint {
             point: reference.place(foot) + normal * (0.5 * vertex.separation),
             separation: vertex.separation,
             feature_a,
             feature_b,
         };
+        before = vertex.side;
     }
 }
 
-/// Keeps the part of the polygon with ± foot[direction] ≤ `limit`. A corner within `tolerance` of the border is on it: it stays
-/// as it is, and no second one is made beside it.
-fn clip(polygon: &mut Polygon, (direction, positive): (usize, bool), limit: f64, tolerance: f64) {
-    let beyond = |vertex: &Vertex| vertex.foot[direction] * if positive { 1.0 } else { -1.0 } - limit;
-    if polygon.vertices[..polygon.count].iter().all(|vertex| beyond(vertex) <= tolerance) {
-        return;
+/// The part of the polygon with ± foot[direction] ≤ `limit`, if it is not the whole. A corner within `tolerance` of the border is on it:
+/// it stays as it is, and no second one is made beside it.
+fn clip(
+    polygon: &Polygon,
+    (direction, positive): (usize, bool),
+    (limit, tolerance): (f64, f64),
+    clipped: &mut Polygon,
+) -> bool {
+    let sign = if positive { 1.0 } else { -1.0 };
+    let mut beyond = [0.0; 8];
+    let mut is_cut = false;
+    for (beyond, vertex) in beyond.iter_mut().zip(polygon.vertices()) {
+        *beyond = vertex.foot[direction] * sign - limit;
+        is_cut |= *beyond > tolerance || beyond.is_nan();
     }
-    let mut clipped = Polygon { count: 0, ..*polygon };
+    if !is_cut {
+        return false;
+    }
+    clipped.count = 0;
     let border = Side::Reference(direction as u8, positive);
-    for index in 0..polygon.count {
-        let here = polygon.vertices[index];
-        let next = polygon.vertices[if index + 1 < polygon.count { index + 1 } else { 0 }];
-        let (beyond_here, beyond_next) = (beyond(&here), beyond(&next));
+    for (index, here) in polygon.vertices().iter().enumerate() {
+        let next = if index + 1 < polygon.count { index + 1 } else { 0 };
+        let (beyond_here, beyond_next) = (beyond[index], beyond[next]);
+        let next = &polygon.vertices[next];
         let crossing = |side: Side| {
             let share = beyond_here / (beyond_here - beyond_next);
             let between = |from: f64, to: f64| from + (to - from) * share;
@@ -189,7 +210,7 @@ fn clip(polygon: &mut Polygon, (direction, positive): (usize, bool), limit: f64,
         if beyond_here <= tolerance {
             let leaves = beyond_next > tolerance;
             let inside = beyond_here < -tolerance;
-            clipped.push(Vertex { side: if leaves && !inside { border } else { here.side }, ..here });
+            clipped.push(Vertex { side: if leaves && !inside { border } else { here.side }, ..*here });
             if leaves && inside {
                 clipped.push(crossing(border));
             }
@@ -197,7 +218,7 @@ fn clip(polygon: &mut Polygon, (direction, positive): (usize, bool), limit: f64,
             clipped.push(crossing(here.side));
         }
     }
-    *polygon = clipped;
+    true
 }
 
 /// What touches at a corner of the polygon, from the sides that meet there: `before` ends and `vertex.side` begins.

@@ -15,7 +15,7 @@ mod round;
 use crate::bodies::{Bodies, WORLD_ROW};
 use crate::collide::{ContactPoint, Manifold};
 use crate::impacts::reflection::{Mover, Spot};
-use crate::impacts::strike::{mover_at, pose_at};
+use crate::impacts::strike::{center_at, mover_at};
 use crate::impacts::time_of_impact::{Approach, RestLaw, Touch};
 use crate::impulse::{Contact, Velocity};
 use crate::math::DVec3;
@@ -280,7 +280,7 @@ impl<'a> Instant<'a> {
 
     fn centers(&self, index: usize) -> Option<[DVec3; 2]> {
         let (a, b) = self.pairs[index].colliders;
-        let center = |key| Some(pose_at(self.bodies, self.bodies.collider(key)?, self.time).position);
+        let center = |key| Some(center_at(self.bodies, self.bodies.collider(key)?, self.time));
         Some([center(a)?, center(b)?])
     }
 

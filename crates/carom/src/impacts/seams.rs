@@ -20,11 +20,12 @@
 //! The shape may be that of a body that slides over others, or the ground under a body of several colliders.
 
 use super::time_of_impact::Approach;
-use crate::bodies::{ColliderRow, Record, WORLD_ROW};
+use crate::bodies::{ColliderRow, Outline, Record, WORLD_ROW};
 use crate::collide::{self, ContactPoint, Manifold, Wanted, lies_beyond_a_side};
 use crate::math::{DVec3, Pose};
 use crate::shape::Shape;
 use crate::step::pairs::Pairs;
+use smallvec::SmallVec;
 use std::cmp::Ordering;
 
 /// Tiles may be so far apart, as a share of the reach of what slides over them.
@@ -71,23 +72,42 @@ struct Plane {
     separation: f64,
 }
 
+/// Where a manifold's surfaces are nearest.
+struct Place {
+    point: DVec3,
+    /// How much further away than its contacts another collider may be, m.
+    room: f64,
+}
+
+impl Place {
+    fn of(manifold: &Manifold) -> Option<Self> {
+        let contact = manifold.points().iter().min_by(nearest)?;
+        Some(Self { point: contact.point, room: 1.5 * contact.separation.abs() })
+    }
+}
+
+/// A ball, relative to the approach's origin.
+struct Ball {
+    center: DVec3,
+    /// m
+    radius: f64,
+}
+
 /// Takes out of the manifolds of `approach` at a time, found with a margin (m), those that contacts of other pairs make idle.
-/// All places are relative to the approach's origin.
+/// All places are relative to the approach's origin. Returns whether there is anything that could have done so.
 pub(super) fn leave_out_idle(
     approach: &Approach,
     pairs: &Pairs,
     (time, margin): (f64, f64),
     manifolds: &mut Vec<Manifold>,
-) {
+) -> bool {
     if manifolds.is_empty() || is_seamless(approach) {
-        return;
+        return false;
     }
     let seam = Seam { approach, time, margin };
     let mut beside = seam.beside(pairs, manifolds);
-    if beside.is_empty() {
-        return;
-    }
     manifolds.retain_mut(|manifold| beside.iter_mut().all(|beside| seam.holds(manifold, beside)));
+    !beside.is_empty()
 }
 
 /// Whether two balls meet, of bodies that have no other collider: their normal leads from centre to centre, whatever is beside them.
@@ -114,21 +134,18 @@ impl Seam<'_> {
         let (a, b) = approach.keys;
         let bodies = approach.bodies;
         let rows = [approach.a.row, approach.b.row];
-        let nearest: Vec<ContactPoint> = manifolds
-            .iter()
-            .filter_map(|manifold| manifold.points().iter().min_by(nearest))
-            .copied()
-            .collect();
+        let places: SmallVec<[Place; 4]> = manifolds.iter().filter_map(Place::of).collect();
+        let Some(around) = self.ball_around(&places) else { return Vec::new() };
         let mut found: Vec<Beside> = Vec::new();
         for row in rows.into_iter().filter(|&row| row != WORLD_ROW && bodies.constants[row].is_movable()) {
             for ((first, second), index) in pairs.each_of_row(row) {
-                let shares = |key: u32| first == key || second == key;
-                if shares(a) == shares(b) {
+                let (shares_first, shares_second) = (first == a || second == a, first == b || second == b);
+                if shares_first == shares_second {
                     continue;
                 }
-                let shared = if shares(a) { a } else { b };
+                let shared = if shares_first { a } else { b };
                 let other = if first == shared { second } else { first };
-                if !self.comes_near(other, shared == a, &nearest) {
+                if self.is_far(other, &around) || !self.comes_near(other, shares_first, &places) {
                     continue;
                 }
                 let pair = &pairs[index];
@@ -138,22 +155,47 @@ impl Seam<'_> {
                     && (pair.rests || may_touch())
                     && !found.iter().any(|beside| beside.other == other)
                 {
-                    found.push(Beside { other, shares_first: shared == a, planes: None });
+                    found.push(Beside { other, shares_first, planes: None });
                 }
             }
         }
         found
     }
 
-    /// Whether a collider may come so near one of these contacts that it can make it idle.
-    fn comes_near(&self, other: u32, shares_first: bool, contacts: &[ContactPoint]) -> bool {
+    /// A ball that whatever comes near one of these places comes into, with the share of its own reach that tiles may be apart.
+    fn ball_around(&self, places: &[Place]) -> Option<Ball> {
+        let (smaller, center) = (self.approach.a.reach.min(self.approach.b.reach), places.first()?.point);
+        let far = |place: &Place| place.point.distance(center) + place.room;
+        let farthest = places.iter().map(far).fold(0.0, f64::max);
+        Some(Ball { center, radius: (1.0 + SLACK) * (farthest + GAP * smaller) })
+    }
+
+    /// Whether a collider is outside that ball, however its body has flown since its own time: most are.
+    #[inline]
+    fn is_far(&self, other: u32, ball: &Ball) -> bool {
+        let bodies = self.approach.bodies;
+        let Outline { row, reach } = bodies.outline(other);
+        let row = row as usize;
+        let flown = bodies.paces[row].0 * (self.time - bodies.clocks[row]).abs();
+        let far = (1.0 + GAP + 2.0 * SLACK) * reach + ball.radius + flown;
+        let center = bodies.states[row].position - self.approach.origin;
+        center.distance_squared(ball.center) > far * far && row != WORLD_ROW
+    }
+
+    /// Whether a collider may come so near one of these places that it can make its contact idle.
+    fn comes_near(&self, other: u32, shares_first: bool, places: &[Place]) -> bool {
         let Some(other) = self.approach.bodies.collider(other) else { return false };
         let center = self.approach.center_at(other, self.time);
-        let reach = (1.0 + SLACK) * other.reach + GAP * self.reach(other, shares_first);
-        contacts.iter().any(|contact| {
-            let far = reach + 1.5 * contact.separation.abs();
-            center.distance_squared(contact.point) <= far * far
-        })
+        let own_reach = (1.0 + SLACK) * other.reach;
+        let comes_within = |reach: f64, place: &Place| {
+            let far = own_reach + GAP * reach + place.room;
+            center.distance_squared(place.point) <= far * far
+        };
+        let most = self.sides(shares_first).0.reach;
+        // Most are so far away that it does not matter what is small against them.
+        places
+            .iter()
+            .any(|place| comes_within(most, place) && comes_within(self.reach(other, shares_first), place))
     }
 
     /// What is small against it is small for the three: the two of the approach, one of which is shared, and the `other` one.

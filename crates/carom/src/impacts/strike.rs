@@ -3,6 +3,7 @@
 use crate::bodies::{Bodies, ColliderRow, WORLD_ROW};
 use crate::collide::ContactPoint;
 use crate::fault;
+use crate::flight::fly_center;
 use crate::impacts::reflection::{Blow, Mover, Spot};
 use crate::impulse::Velocity;
 use crate::math::{DMat3, DVec3, Pose};
@@ -28,6 +29,16 @@ pub(crate) fn pose_at(bodies: &Bodies, collider: &ColliderRow, time: f64) -> Pos
     }
     let state = state_at(bodies, collider.row, time);
     Pose::new(state.position, state.rotation)
+}
+
+/// Its centre of mass alone.
+pub(crate) fn center_at(bodies: &Bodies, collider: &ColliderRow, time: f64) -> DVec3 {
+    let row = collider.row;
+    if row == WORLD_ROW {
+        return bodies.center_pose(collider).position;
+    }
+    let (state, flown) = (&bodies.states[row], time - bodies.clocks[row]);
+    fly_center(state, &bodies.constants[row], &bodies.influences[row], flown.max(0.0)).0
 }
 
 /// The velocity of a row as it is stored.

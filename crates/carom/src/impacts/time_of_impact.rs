@@ -18,6 +18,7 @@ use crate::report::Feature;
 use crate::shape::Shape;
 use crate::step::motion::{free_influence, state_at};
 use crate::step::pairs::Pairs;
+use std::cell::OnceCell;
 pub(crate) use straight::outlook;
 
 /// What decides whether a touch is an impact or a contact.
@@ -64,6 +65,7 @@ pub(crate) struct Approach<'a> {
     pub(super) origin: DVec3,
     /// Separation up to which the surfaces count as touching, m.
     tolerance: f64,
+    noise: OnceCell<f64>,
     foreseen: Foreseen,
 }
 
@@ -105,7 +107,8 @@ impl<'a> Approach<'a> {
         let (a, b) = (bodies.collider(keys.0)?, bodies.collider(keys.1)?);
         let origin = bodies.center_pose(if a.row == WORLD_ROW { b } else { a }).position;
         let tolerance = tolerance(a, b);
-        Some(Self { bodies, keys, a, b, law, origin, tolerance, foreseen: Foreseen::default() })
+        let (noise, foreseen) = (OnceCell::new(), Foreseen::default());
+        Some(Self { bodies, keys, a, b, law, origin, tolerance, noise, foreseen })
     }
 
     /// Speed (m/s) below which closing is rounding.
@@ -115,7 +118,7 @@ impl<'a> Approach<'a> {
                 (&self.bodies.states[collider.row], &self.bodies.constants[collider.row]);
             state.velocity.length() + constants.angular_velocity(state).length() * collider.spin_reach
         };
-        1e-9 * (speed(self.a) + speed(self.b)) + 1e-12
+        *self.noise.get_or_init(|| 1e-9 * (speed(self.a) + speed(self.b)) + 1e-12)
     }
 
     /// The two.
@@ -129,11 +132,21 @@ impl<'a> Approach<'a> {
     }
 
     /// Where the centre of mass of a collider's body is at `time`, relative to the origin.
+    #[inline]
     pub(super) fn center_at(&self, collider: &ColliderRow, time: f64) -> DVec3 {
-        if collider.row == WORLD_ROW {
+        let row = collider.row;
+        if row != WORLD_ROW && self.bodies.clocks[row] == time {
+            return self.bodies.states[row].position - self.origin;
+        }
+        self.flown_center(collider, time)
+    }
+
+    fn flown_center(&self, collider: &ColliderRow, time: f64) -> DVec3 {
+        let row = collider.row;
+        if row == WORLD_ROW {
             return self.bodies.center_pose(collider).position - self.origin;
         }
-        let (state, row) = (&self.bodies.states[collider.row], collider.row);
+        let state = &self.bodies.states[row];
         let flown = time - self.bodies.clocks[row];
         let influence = &self.bodies.influences[row];
         let (position, _) = fly_center(state, &self.bodies.constants[row], influence, flown);
@@ -147,6 +160,9 @@ impl<'a> Approach<'a> {
             Pose::new(center.position - self.origin, center.rotation)
         } else if collider.spin_reach == 0.0 {
             Pose::new(self.center_at(collider, time), self.bodies.states[collider.row].rotation)
+        } else if time <= self.bodies.clocks[collider.row] {
+            let state = &self.bodies.states[collider.row];
+            Pose::new(state.position - self.origin, state.rotation)
         } else {
             let state = self.state_at(collider, time);
             Pose::new(state.position - self.origin, state.rotation)
@@ -322,9 +338,9 @@ impl<'a> Approach<'a> {
             fastest
         };
         // Mostly nothing closes, and nobody needs to know what is idle.
-        fastest(&manifolds)?;
-        leave_out_idle(self, pairs, (time, self.tolerance), &mut manifolds);
-        fastest(&manifolds)
+        let touch = fastest(&manifolds)?;
+        let may_be_idle = leave_out_idle(self, pairs, (time, self.tolerance), &mut manifolds);
+        if may_be_idle { fastest(&manifolds) } else { Some(touch) }
     }
 }
 

@@ -20,7 +20,7 @@ use crate::impacts::time_of_impact::{Approach, RestLaw, Touch, outlook};
 use crate::report::Impact;
 use crate::step::broad_phase::{BroadPhase, order};
 use crate::step::motion::{advance, rouse, set_pace};
-use crate::step::pairs::Pairs;
+use crate::step::pairs::{Pair, Pairs};
 use crate::step::profile::{self, Phase};
 use crate::step::rest::{Rest, Span};
 pub(crate) use agenda::Agenda;
@@ -110,11 +110,25 @@ impl<'a> Events<'a> {
                 if now.asked_until > span.from {
                     self.pairs.now_mut(index).asked_until = span.from;
                 }
-            } else {
+            } else if !self.keeps_away(index, span) {
                 due.push(index);
             }
         }
         self.ask_all(due, span);
+    }
+
+    /// Whether nobody has asked a pair in this step, and nobody need: whichever way its bodies go, they have not enough left to meet.
+    fn keeps_away(&self, index: usize, span: Span) -> bool {
+        let pair = &self.pairs[index];
+        !pair.rests
+            && !self.pairs.has_present(index)
+            && self.pairs.least_separation(self.bodies, index, self.end_of_path(pair, span)) > pair.tolerance
+    }
+
+    /// Until when the paths of a pair's bodies are known, s: what contacts hold gets a new one in each substep.
+    fn end_of_path(&self, pair: &Pair, span: Span) -> f64 {
+        let is_held = pair.rows().into_iter().any(|row| self.rest.is_held(row));
+        if is_held { span.until } else { self.law.step }
     }
 
     /// Asks all these pairs when they will touch, from the start of `span` on.
@@ -146,8 +160,7 @@ impl<'a> Events<'a> {
     /// What a pair answers to that.
     fn answer(&self, index: usize, span: Span) -> Answer {
         let pair = &self.pairs[index];
-        let is_held = pair.rows().into_iter().any(|row| self.rest.is_held(row));
-        let until = if is_held { span.until } else { self.law.step };
+        let until = self.end_of_path(pair, span);
         let mut answer = Answer { until, gap: None, apart: [f64::NEG_INFINITY; 2], instant: None };
         let may_touch = if pair.rests {
             !self.rest.presses(self.bodies, pair, self.law)
@@ -194,9 +207,13 @@ impl<'a> Events<'a> {
 
     /// Notes what a pair has answered.
     fn note(&mut self, index: usize, Answer { until, gap, apart, instant }: Answer, span: Span) {
-        let courses = self.pairs[index].rows().map(|row| self.bodies.courses[row]);
+        let rows = self.pairs[index].rows();
         let now = self.pairs.now_mut(index);
-        (now.apart, now.courses) = (apart, courses);
+        now.apart = apart;
+        if apart[0] > f64::NEG_INFINITY {
+            // Nobody asks on which courses they are of whom nothing is known.
+            now.courses = rows.map(|row| self.bodies.courses[row]);
+        }
         now.stamp += 1;
         (now.asked_from, now.asked_until) = (span.from, until);
         let stamp = now.stamp;
@@ -303,7 +320,9 @@ impl<'a> Events<'a> {
         let mut due = std::mem::take(&mut self.agenda.due);
         for row in rows {
             let pairs = (0..self.pairs.count_of_row(row)).map(|number| self.pairs.of_row(row, number));
-            due.extend(pairs.filter(|&index| !self.pairs.now(index).is_sensed));
+            due.extend(
+                pairs.filter(|&index| !self.pairs.now(index).is_sensed && !self.keeps_away(index, span)),
+            );
         }
         due.sort_unstable();
         due.dedup();

@@ -168,6 +168,12 @@ impl Pairs {
         changed.filter(|pair| self.presents[pair.present as usize].is_sensed)
     }
 
+    /// Whether anything has happened to a pair in the present step.
+    #[inline]
+    pub fn has_present(&self, index: usize) -> bool {
+        self[index].present != 0
+    }
+
     /// What happens to a pair in the present step.
     #[inline]
     pub fn now(&self, index: usize) -> &Present {
@@ -175,14 +181,16 @@ impl Pairs {
     }
 
     /// The same, to note what does.
+    #[inline]
     pub fn now_mut(&mut self, index: usize) -> &mut Present {
         let next = self.presents.len();
         let pair = &mut self[index];
-        if pair.present == 0 {
+        let mut place = pair.present as usize;
+        if place == 0 {
+            place = next;
             pair.present = next as u32;
             self.presents.put(Present::NOTHING);
         }
-        let place = self[index].present as usize;
         &mut self.presents[place]
     }
 
@@ -249,12 +257,14 @@ impl Entry {
 impl std::ops::Index<usize> for Pairs {
     type Output = Pair;
 
+    #[inline]
     fn index(&self, index: usize) -> &Pair {
         self.list[index].as_ref().expect("a pair's index is used as long as there is the pair")
     }
 }
 
 impl std::ops::IndexMut<usize> for Pairs {
+    #[inline]
     fn index_mut(&mut self, index: usize) -> &mut Pair {
         let pair = self.list[index].as_mut().expect("a pair's index is used as long as there is the pair");
         if !std::mem::replace(&mut pair.is_changed, true) {

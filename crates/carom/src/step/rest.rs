@@ -233,8 +233,8 @@ impl Rest {
     /// Whether all points of a pair that rests are so near that the contacts have them all.
     pub fn is_closed(&self, pair: &Pair) -> bool {
         pair.contacts.iter().all(|&contact| {
-            let get = |field: usize| self.graph.get(contact, field);
-            get(field::WIDEST) <= get(field::HORIZON)
+            let numbers = self.graph.numbers(contact);
+            numbers.get(field::WIDEST) <= numbers.get(field::HORIZON)
         })
     }
 
@@ -281,19 +281,18 @@ impl Rest {
             (state.velocity, bodies.constants[row].angular_velocity(state))
         });
         pair.contacts.iter().any(|&contact| {
-            let get = |field: usize| f64::from(self.graph.get(contact, field));
-            let axis = |field: usize| DVec3::new(get(field), get(field + 1), get(field + 2));
-            let (normal, first) = (axis(field::NORMAL), axis(field::TANGENT));
+            let numbers = self.graph.numbers(contact);
+            let (normal, first) = (numbers.vector(field::NORMAL), numbers.vector(field::TANGENT));
             let second = normal.cross(first);
             let inward = |v: DVec3| DVec3::new(v.dot(first), v.dot(second), v.dot(normal));
             let relative = (motion[1].0 - motion[0].0).dot(normal);
             let (spin_a, spin_b) = (inward(motion[0].1), inward(motion[1].1));
             (0..self.owners[contact.index()].touched.count()).any(|point| {
                 let at = |line: usize| field::of_point(point, line);
-                let (arm_a, arm_b) = (axis(at(field::ARM_A)), axis(at(field::ARM_B)));
+                let (arm_a, arm_b) = (numbers.vector(at(field::ARM_A)), numbers.vector(at(field::ARM_B)));
                 let speed = relative + (spin_b.x * arm_b.y - spin_b.y * arm_b.x)
                     - (spin_a.x * arm_a.y - spin_a.y * arm_a.x);
-                let gap = get(at(field::SEPARATION));
+                let gap = numbers.get(at(field::SEPARATION));
                 let slowest = if gap > horizon { law.drift_speed() } else { law.drift_speed().max(pressed) };
                 speed < -slowest && gap + speed * left < 0.0
             })

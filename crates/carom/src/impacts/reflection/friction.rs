@@ -90,10 +90,10 @@ impl Round<'_> {
     /// near it but slowly where they act on each other: on the tip of what is long and thin.
     fn stick(&mut self, index: usize) -> Option<f64> {
         let (spot, row) = (&self.spots[index], &self.rows[index]);
-        let stiffness = row.stiffness.filter(|_| spot.is_rough() && !spot.pulls)?;
+        let stiffness = row.stiffness.as_ref().filter(|_| spot.is_rough() && !spot.pulls)?;
         let normal = spot.contact.normal;
         let lack = row.wanted * normal - self.velocity(index);
-        let further = stiffness * lack;
+        let further = *stiffness * lack;
         let blow = &self.blows[index];
         let along = further.dot(normal);
         let across = further - along * normal;

@@ -217,7 +217,7 @@ impl Approach<'_> {
     /// separations are.
     ///
     /// Where a corner comes down beside what touches already, false position on its gap (as in [`Self::root`]); bisection where a point
-    /// that touches comes to close.
+    /// that touches comes to close: as long as nothing closes at `open`, nobody asks for the gap of what does at `closing`.
     fn first_closing(
         &self,
         pairs: &Pairs,
@@ -227,27 +227,31 @@ impl Approach<'_> {
     ) -> f64 {
         let margin = (closing - open) * limit + self.tolerance;
         let gap = |time: f64| self.gap_of_closing(time, margin, kept);
-        let (mut open_gap, mut closing_gap) = (gap(open), gap(closing));
+        let mut open_gap = gap(open);
+        let (mut closing_gap, mut weight) = (None, 1.0);
         for iteration in 0.. {
             if (closing - open) * limit <= self.tolerance {
                 break;
             }
-            let is_bracketed = open_gap.is_finite() && closing_gap < 0.0;
-            let fraction =
-                if iteration % 4 == 3 || !is_bracketed { 0.5 } else { open_gap / (open_gap - closing_gap) };
+            let fraction = if iteration % 4 == 3 || !open_gap.is_finite() {
+                0.5
+            } else {
+                let closing_gap = weight * *closing_gap.get_or_insert_with(|| gap(closing));
+                if closing_gap < 0.0 { open_gap / (open_gap - closing_gap) } else { 0.5 }
+            };
             let middle = open + fraction * (closing - open);
             if middle <= open || middle >= closing {
                 break;
             }
             if self.touch(pairs, middle, kept).is_some() {
-                (closing, closing_gap) = (middle, gap(middle));
-                if closing_gap.abs() <= self.tolerance && open_gap.is_finite() {
+                (closing, closing_gap, weight) = (middle, None, 1.0);
+                if open_gap.is_finite() && closing_gap.insert(gap(middle)).abs() <= self.tolerance {
                     break;
                 }
                 open_gap *= 0.5;
             } else {
                 (open, open_gap) = (middle, gap(middle));
-                closing_gap *= 0.5;
+                weight *= 0.5;
             }
         }
         closing

@@ -174,7 +174,13 @@ impl Graph {
 fn add_wrenches((bundle, sums): (&Bundle, &Sums), contacts: &[u32], rows: &[Row], found: &mut Vec<Wrench>) {
     for (lane, &contact) in contacts.iter().enumerate() {
         let sides = [bundle.a[lane], bundle.b[lane]];
-        let exerts = sums.each_ref().map(|sum| sum.each_ref().map(|line| line.0[lane]));
+        // Loops, as what maps arrays may end up as a call for each number.
+        let mut exerts = [[0.0; 3]; PARTS];
+        for (vector, lines) in exerts.iter_mut().zip(sums) {
+            for (value, line) in vector.iter_mut().zip(lines) {
+                *value = line.0[lane];
+            }
+        }
         let does = exerts.as_flattened().iter().any(|&value| value != 0.0);
         if does && sides.iter().any(|&row| rows[row as usize].0[WRITABLE] != 0.0) {
             let share = bundle.get(lane, field::SHARE);

@@ -83,6 +83,8 @@ fn validate(world: &World) {
     let colliders: Vec<(u32, &ColliderRow)> =
         (0..).map_while(|key| (key < 400).then(|| Some((key, bodies.collider(key)?)))).flatten().collect();
     for (number, &(key, one)) in colliders.iter().enumerate() {
+        let outline = bodies.outline(key);
+        assert_eq!((outline.row as usize, outline.reach), (one.row, one.reach));
         for &(other_key, other) in &colliders[..number] {
             let movable = |it: &ColliderRow| bodies.constants[it.row].is_movable();
             let fixed = one.row == WORLD_ROW && other.row == WORLD_ROW;
