@@ -37,7 +37,7 @@ const RATTLE_SPEED: f64 = 0.01;
 const WEDGED_TOUCHES: u32 = 1024;
 
 /// So many pairs asked are worth sharing out.
-const QUESTIONS: usize = 64;
+const QUESTIONS: usize = 32;
 
 /// So many are asked before their answers are noted: in a large world answers would take more room than the pairs.
 const AT_ONCE: usize = 4096;

@@ -12,7 +12,7 @@ use crate::step::profile::{self, Phase};
 
 /// Bundles that are worth a thread's while: a sweep over so many takes some microseconds. A colour with less than twice as many
 /// stays with the caller.
-pub(super) const GRAIN: usize = 16;
+pub(super) const GRAIN: usize = 8;
 
 /// The same where all that is done with a bundle is to look at it.
 pub(super) const GLANCES: usize = 256;

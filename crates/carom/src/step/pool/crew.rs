@@ -21,8 +21,12 @@ const UNIT_BITS: u32 = 12;
 /// Stages are counted modulo this: a worker would have to be away for days for one to come again.
 const STAGES: u64 = 1 << (64 - 2 * UNIT_BITS);
 
-/// So many times a worker without work looks for some before it sleeps, about 50 µs where a pause is longest.
+/// So many times a thread without work looks for some, about 20 to 50 µs.
 const LOOKS: u32 = 1000;
+
+/// So many times more a worker does so before it sleeps, and lets others go first each time, about half a millisecond in all: between
+/// two stages of a step it stays awake, as to wake it takes longer than many stages do.
+const WAITS: u32 = 1000;
 
 /// What is to be done for each unit.
 type Act<'a> = &'a (dyn Fn(usize) + Sync);
@@ -130,11 +134,11 @@ impl Shared {
     /// Waits for another stage than `seen`, or the end.
     fn await_stage_after(&self, seen: u64, me: usize) -> u64 {
         let is_over = || self.stage.load(Ordering::SeqCst) != seen || self.ends.load(Ordering::SeqCst);
-        for _ in 0..LOOKS {
+        for look in 0..LOOKS + WAITS {
             if is_over() {
                 return self.stage.load(Ordering::SeqCst);
             }
-            std::hint::spin_loop();
+            if look < LOOKS { std::hint::spin_loop() } else { thread::yield_now() }
         }
         // Whoever starts a stage or ends the crew does so before looking who is parked.
         loop {
