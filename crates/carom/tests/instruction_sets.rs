@@ -182,12 +182,12 @@ const THREADS: [u32; 3] = [1, 2, 4];
 
 /// The hashes of states and events of [pile, mesh, gas, cradle, stack, crowd].
 const EXPECTED: [[u64; 2]; 6] = [
-    [0x2cdb_5bf9_fd82_67db, 0x8e67_c7a6_7de5_0455],
-    [0x0655_4526_d58e_9ac4, 0xecc6_8f94_0e5e_3588],
+    [0xccbc_e962_2f27_39ee, 0xe87b_333d_bc87_01a0],
+    [0xbd2a_197e_cb1c_29e2, 0x39b6_a443_2493_e73a],
     [0xb7c9_a597_8de9_22c8, 0x12d9_d339_e94d_7830],
     [0x495a_c80e_1b79_9fde, 0x046b_b65b_a085_2bf1],
-    [0xc843_29ab_9e7c_e879, 0xbcb8_68eb_af0b_dde5],
-    [0x1b68_0526_8362_7440, 0x4188_5df4_99c6_db9a],
+    [0x0fbe_6b78_1070_a583, 0x02b9_b72f_c214_76d4],
+    [0xa38d_0e72_b733_8f9d, 0x3a81_3772_5ad4_99b2],
 ];
 
 #[test]

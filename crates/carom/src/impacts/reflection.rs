@@ -99,7 +99,7 @@ fn push(movers: &[Mover], velocities: &mut [Velocity], spot: &Spot, impulse: DVe
     for (side, impulse) in [(0, -impulse), (1, impulse)] {
         let mover = &movers[spot.movers[side]];
         let velocity = &mut velocities[spot.movers[side]];
-        velocity.linear += impulse / mover.mass;
+        velocity.linear += impulse * (1.0 / mover.mass);
         velocity.angular += mover.inverse_inertia * spot.arms[side].cross(impulse);
     }
 }
