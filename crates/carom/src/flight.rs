@@ -211,7 +211,7 @@ impl Constants {
         if self.rotor.is_isotropic() {
             return momentum.length() * self.rotor.inverse_moments.x;
         }
-        let local = (rotation * self.rotor.principal).conjugate() * momentum;
+        let local = self.rotor.axes(rotation).conjugate() * momentum;
         (local * self.rotor.inverse_moments).length()
     }
 
@@ -294,7 +294,7 @@ impl Constants {
         let (largest, momentum) = (self.rotor.inverse_moments.max_element(), state.angular_momentum);
         let mut free = largest * momentum.length();
         if free * time > HARDLY_TURNED && !self.rotor.is_isotropic() {
-            let local = (state.rotation * self.rotor.principal).conjugate() * momentum;
+            let local = self.rotor.axes(state.rotation).conjugate() * momentum;
             free = free.min((largest * (local * local).dot(self.rotor.inverse_moments)).sqrt());
         }
         free + self.driven_spin.length() + largest * influence.torque.length() * time
