@@ -317,3 +317,16 @@ fn a_pyramid_of_820_boxes_stands_still_within_half_a_second() {
         assert!(moved < 1e-4, "the box at {start} has moved by {moved} m");
     }
 }
+
+/// Rest capture took what lies on ice for lying on something with friction if it touched anything rough.
+#[test]
+fn what_slides_on_ice_along_a_rough_wall_keeps_its_speed() {
+    let mut world = World::new();
+    world.add(slab().friction(0.0));
+    world.add(Body::fixed().with(Shape::cuboid(1.0, 2.0, 9.0)).at(-1.0, 1.0, 0.0).friction(1.0));
+    let cube = Body::dynamic().with(Shape::cuboid(1.0, 1.0, 1.0)).friction(0.0);
+    let cube = world.add(cube.at(0.0, 0.5, -2.0).moving(0.0, 0.0, 0.05));
+    run(&mut world, 5.0);
+    let velocity = world[cube].linear_velocity();
+    assert!((f64::from(velocity.z) - 0.05).abs() < 1e-6, "it goes on at {velocity} m/s");
+}

@@ -22,7 +22,8 @@ use crate::step::motion::{Plan, set_pace};
 const RESISTANCE: f64 = 2.0;
 const CAPTURED: f64 = 8.0;
 
-/// A body rests on something if contacts push it by more than this share of what gravity does. It goes nowhere if its velocity
+/// A body rests on something with friction if contacts, and those with friction by themselves, push it by more than this share of what
+/// gravity does. It goes nowhere if its velocity
 /// changes by no more than the second, so that what starts to roll down a slope does so freely; or if for so long (s) it has stayed
 /// where any such start would have taken it away from.
 const SUPPORTED: f64 = 0.5;
@@ -36,8 +37,8 @@ struct Held {
     gain: [DVec3; 2],
     /// Whether the forces on it persist.
     steady: bool,
-    /// Whether contacts with friction push it.
-    rough: bool,
+    /// How much contacts with friction push it, N·s.
+    rough: f64,
 }
 
 impl Held {
@@ -46,7 +47,7 @@ impl Held {
             row,
             gain: work.gains[row],
             steady: work.is_steady[row] || !work.is_pushed[row],
-            rough: work.is_rough[row],
+            rough: work.rough_pushes[row],
         }
     }
 }
@@ -112,11 +113,13 @@ impl Rest {
         impulse: DVec3,
         (law, substep): (RestLaw, f64),
     ) -> Change {
-        let push = impulse * bodies.constants[body.row].inverse_mass;
+        let inverse_mass = bodies.constants[body.row].inverse_mass;
+        let push = impulse * inverse_mass;
         let mut change = Change { velocity: body.gain[0] + push, ..Change::default() };
         let pull = body.gain[0].length();
         let stays = self.goes_nowhere(bodies, body.row, (change.velocity.length(), pull, substep));
-        change.captured = body.rough && push.length() > SUPPORTED * pull && stays;
+        let is_carried = push.length().min(body.rough * inverse_mass) > SUPPORTED * pull;
+        change.captured = is_carried && stays;
         if change.captured {
             let velocity = bodies.states[body.row].velocity + change.velocity;
             change.captured_velocity = -captured_share(velocity.length(), law) * velocity;

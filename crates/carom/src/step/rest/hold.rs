@@ -111,16 +111,16 @@ impl Rest {
         size(difference(&after, persisting)).min(size(difference(&given, &before)))
     }
 
-    /// Adds up what contacts push each body with, and whether any of them does it with friction.
+    /// Adds up what contacts push each body with, and how much of it by those with friction.
     fn add_up(&self, work: &mut Work) {
         for wrench in &work.wrenches {
             let ([a, b], impulse) = (wrench.rows(), wrench.impulse());
             work.impulses[a] -= impulse;
             work.impulses[b] += impulse;
-            let rubs = self.manners[wrench.contact.index()].rubs;
+            let rough = if self.manners[wrench.contact.index()].rubs { impulse.length() } else { 0.0 };
             for row in [a, b] {
                 work.is_pushed[row] = true;
-                work.is_rough[row] |= rubs;
+                work.rough_pushes[row] += rough;
             }
         }
     }

@@ -18,8 +18,8 @@ pub(super) struct Work {
     pub persisting: Vec<Row>,
     /// Velocity (m/s) and angular momentum (N·m·s) that gravity and the user's forces give.
     pub gains: Vec<[DVec3; 2]>,
-    /// Whether contacts with friction push the body.
-    pub is_rough: Vec<bool>,
+    /// How much contacts with friction push the body, without directions, N·s.
+    pub rough_pushes: Vec<f64>,
     /// Whether the forces on it persist.
     pub is_steady: Vec<bool>,
     /// Whether contacts push it.
@@ -49,7 +49,7 @@ pub(super) struct Change {
 impl Work {
     /// Makes room for `count` rows, of which nothing is known yet.
     pub fn begin(&mut self, count: usize) {
-        fill(&mut self.is_rough, count, false);
+        fill(&mut self.rough_pushes, count, 0.0);
         fill(&mut self.is_steady, count, true);
         fill(&mut self.is_pushed, count, false);
         fill(&mut self.impulses, count, DVec3::ZERO);
