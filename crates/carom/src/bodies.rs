@@ -7,131 +7,36 @@
 //!                   row 0 = the world: infinite mass, at rest; every fixed body's row
 //! ```
 //!
+//! ```text
+//! bodies/state.rs    what users name bodies by, and read of them
+//! bodies/record.rs   what the table keeps of a body and of its colliders
+//! bodies/forces.rs   what users push bodies with
+//! ```
+//!
 //! Slots are stable and named by ids; rows are dense, so a step walks them in order. An id carries the generation of
 //! its slot, hence an id of a removed body never names another one.
 
 mod forces;
+mod record;
+mod state;
 
 use crate::body::{Body, Collider, Motion};
 use crate::error::Invalid;
-use crate::filter::Filter;
 use crate::flight::{Constants, Influence, RigidState};
 use crate::ledger::Stock;
 use crate::ledger::journal::Journal;
 use crate::mass::BodyMass;
-use crate::material::Material;
-use crate::math::{DQuat, DVec3, Pose, Quat, Vec3};
+use crate::math::{DQuat, DVec3, Pose, Vec3};
 use crate::room::Room;
 use crate::shape::Shape;
 use crate::step::motion::Plan;
 use forces::Forces;
+pub(crate) use record::{Activity, ColliderRow, Outline, Record};
 use smallvec::SmallVec;
-
-/// Names one body of one world, also after it has been removed: an id is never given twice.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct BodyId {
-    index: u32,
-    generation: u32,
-}
-
-impl BodyId {
-    /// Place in the world's table; the order in which collisions are reported.
-    pub fn index(self) -> usize {
-        self.index as usize
-    }
-}
-
-/// Where a body is and how it moves, as of the end of the last step.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BodyState {
-    position: DVec3,
-    rotation: Quat,
-    linear_velocity: Vec3,
-    angular_velocity: Vec3,
-    asleep: bool,
-}
-
-impl BodyState {
-    /// The body's origin in the world, m.
-    pub fn position(&self) -> DVec3 {
-        self.position
-    }
-
-    /// Turns the body's frame into the world's.
-    pub fn rotation(&self) -> Quat {
-        self.rotation
-    }
-
-    /// Velocity of the centre of mass in the world, m/s.
-    pub fn linear_velocity(&self) -> Vec3 {
-        self.linear_velocity
-    }
-
-    /// Angular velocity in the world, rad/s.
-    pub fn angular_velocity(&self) -> Vec3 {
-        self.angular_velocity
-    }
-
-    /// Whether the body was put to sleep and nothing has woken it since.
-    pub fn is_asleep(&self) -> bool {
-        self.asleep
-    }
-}
+pub use state::{BodyId, BodyState};
 
 /// The row of everything that does not move.
 pub(crate) const WORLD_ROW: usize = 0;
-
-/// Whether a body takes part in the simulation, and if not, why.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Activity {
-    /// It does take part.
-    Awake,
-    /// Put to sleep; a touch or a command wakes it.
-    Asleep,
-    /// Its description or its state is of no use.
-    Quarantined,
-}
-
-/// A body as the table keeps it.
-#[derive(Clone, Debug)]
-pub(crate) struct Record {
-    pub description: Body,
-    pub mass: BodyMass,
-    pub state: BodyState,
-    pub row: usize,
-    pub activity: Activity,
-    /// Keys into [`Bodies::colliders`].
-    pub colliders: SmallVec<[u32; 4]>,
-    /// Pose of the centre of mass where it does not follow from a row.
-    pub fixed_pose: Option<Box<Pose>>,
-}
-
-/// A collider as the phases of a step use it.
-#[derive(Clone, Debug)]
-pub(crate) struct ColliderRow {
-    /// Slot and row of its body.
-    pub slot: u32,
-    pub row: usize,
-    /// Which of the body's colliders it is.
-    pub index: u32,
-    pub shape: Shape,
-    /// Where it sits relative to the body's centre of mass.
-    pub local: Pose,
-    /// Farthest point from the centre of mass, m.
-    pub reach: f64,
-    /// The same, but of what moves when the body turns: 0 for a ball around the centre of mass.
-    pub spin_reach: f64,
-    pub material: Material,
-    pub filter: Filter,
-    pub sensor: bool,
-}
-
-/// Of a collider what many ask that look for what is near: its body's row, and its reach (m).
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Outline {
-    pub row: u32,
-    pub reach: f64,
-}
 
 /// Whose collider it is: the body's slot and row, and its number there.
 struct Owner {

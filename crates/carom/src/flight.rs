@@ -84,9 +84,6 @@ pub(crate) struct Constants {
     rotor: Rotor,
 }
 
-/// By what angle (rad) a body turns at most for which the coarser of two limits of its spin will do.
-const HARDLY_TURNED: f64 = 1e-4;
-
 /// How a body turns: its inertia and the split of its energy.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Rotor {
@@ -293,7 +290,9 @@ impl Constants {
     fn spin_limit_of_turning(&self, state: &RigidState, influence: &Influence, time: f64) -> f64 {
         let (largest, momentum) = (self.rotor.inverse_moments.max_element(), state.angular_momentum);
         let mut free = largest * momentum.length();
-        if free * time > HARDLY_TURNED && !self.rotor.is_isotropic() {
+        // However slowly it turns: how closely contacts are looked at goes by this, and with the coarser limit wedges came to rest over
+        // what they did not touch.
+        if !self.rotor.is_isotropic() {
             let local = self.rotor.axes(state.rotation).conjugate() * momentum;
             free = free.min((largest * (local * local).dot(self.rotor.inverse_moments)).sqrt());
         }

@@ -182,8 +182,8 @@ const THREADS: [u32; 3] = [1, 2, 4];
 
 /// The hashes of states and events of [pile, mesh, gas, cradle, stack, crowd].
 const EXPECTED: [[u64; 2]; 6] = [
-    [0xccbc_e962_2f27_39ee, 0xe87b_333d_bc87_01a0],
-    [0xbd2a_197e_cb1c_29e2, 0x39b6_a443_2493_e73a],
+    [0xd4c9_4748_4fff_5595, 0x0504_f0a5_a64a_f959],
+    [0x2b21_762b_446f_36f9, 0x43e4_4f09_d7a6_9e31],
     [0xb7c9_a597_8de9_22c8, 0x12d9_d339_e94d_7830],
     [0x495a_c80e_1b79_9fde, 0x046b_b65b_a085_2bf1],
     [0x0fbe_6b78_1070_a583, 0x02b9_b72f_c214_76d4],

@@ -1,0 +1,62 @@
+//! What the table keeps of a body and of its colliders.
+
+use super::BodyState;
+use crate::body::Body;
+use crate::filter::Filter;
+use crate::mass::BodyMass;
+use crate::material::Material;
+use crate::math::Pose;
+use crate::shape::Shape;
+use smallvec::SmallVec;
+
+/// Whether a body takes part in the simulation, and if not, why.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Activity {
+    /// It does take part.
+    Awake,
+    /// Put to sleep; a touch or a command wakes it.
+    Asleep,
+    /// Its description or its state is of no use.
+    Quarantined,
+}
+
+/// A body as the table keeps it.
+#[derive(Clone, Debug)]
+pub(crate) struct Record {
+    pub description: Body,
+    pub mass: BodyMass,
+    pub state: BodyState,
+    pub row: usize,
+    pub activity: Activity,
+    /// Keys of its colliders.
+    pub colliders: SmallVec<[u32; 4]>,
+    /// Pose of the centre of mass where it does not follow from a row.
+    pub fixed_pose: Option<Box<Pose>>,
+}
+
+/// A collider as the phases of a step use it.
+#[derive(Clone, Debug)]
+pub(crate) struct ColliderRow {
+    /// Slot and row of its body.
+    pub slot: u32,
+    pub row: usize,
+    /// Which of the body's colliders it is.
+    pub index: u32,
+    pub shape: Shape,
+    /// Where it sits relative to the body's centre of mass.
+    pub local: Pose,
+    /// Farthest point from the centre of mass, m.
+    pub reach: f64,
+    /// The same, but of what moves when the body turns: 0 for a ball around the centre of mass.
+    pub spin_reach: f64,
+    pub material: Material,
+    pub filter: Filter,
+    pub sensor: bool,
+}
+
+/// Of a collider what many ask that look for what is near: its body's row, and its reach (m).
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Outline {
+    pub row: u32,
+    pub reach: f64,
+}
