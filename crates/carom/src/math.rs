@@ -41,8 +41,8 @@ impl Pose {
     #[inline]
     pub fn then_local(&self, inner: &Pose) -> Pose {
         // Most colliders sit at the middle of their bodies, and what they sit at changes nothing.
-        let has_sign = self.position.to_array().into_iter().all(|x| x.to_bits() != NEGATIVE_ZERO);
-        if *inner == Pose::IDENTITY && has_sign && is_tilted(self.rotation) {
+        let has_no_negative_zero = self.position.to_array().into_iter().all(|x| x.to_bits() != NEGATIVE_ZERO);
+        if *inner == Pose::IDENTITY && has_no_negative_zero && is_tilted(self.rotation) {
             *self
         } else {
             self.after(inner)

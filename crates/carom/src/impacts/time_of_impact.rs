@@ -65,6 +65,7 @@ pub(crate) struct Approach<'a> {
     pub(super) origin: DVec3,
     /// Separation up to which the surfaces count as touching, m.
     tolerance: f64,
+    /// Once somebody has asked for it.
     noise: OnceCell<f64>,
     foreseen: Foreseen,
 }

@@ -23,9 +23,8 @@ const RESISTANCE: f64 = 2.0;
 const CAPTURED: f64 = 8.0;
 
 /// A body rests on something with friction if contacts, and those with friction by themselves, push it by more than this share of what
-/// gravity does. It goes nowhere if its velocity
-/// changes by no more than the second, so that what starts to roll down a slope does so freely; or if for so long (s) it has stayed
-/// where any such start would have taken it away from.
+/// gravity does. It goes nowhere if its velocity changes by no more than the second, so that what starts to roll down a slope does so
+/// freely; or if for so long (s) it has stayed where any such start would have taken it away from.
 const SUPPORTED: f64 = 0.5;
 const DRIVEN: f64 = 0.01;
 const LINGERED: f64 = 1.0;
