@@ -182,12 +182,12 @@ const THREADS: [u32; 3] = [1, 2, 4];
 
 /// The hashes of states and events of [pile, mesh, gas, cradle, stack, crowd].
 const EXPECTED: [[u64; 2]; 6] = [
-    [0xd4c9_4748_4fff_5595, 0x0504_f0a5_a64a_f959],
-    [0x2b21_762b_446f_36f9, 0x43e4_4f09_d7a6_9e31],
+    [0xa4b3_3559_fcc9_4128, 0x9890_e6d6_5200_7f38],
+    [0x50a9_3213_b4ac_e9c9, 0xb30b_7829_8a2b_318a],
     [0xb7c9_a597_8de9_22c8, 0x12d9_d339_e94d_7830],
     [0x495a_c80e_1b79_9fde, 0x046b_b65b_a085_2bf1],
-    [0x0fbe_6b78_1070_a583, 0x02b9_b72f_c214_76d4],
-    [0xa38d_0e72_b733_8f9d, 0x3a81_3772_5ad4_99b2],
+    [0xa986_b83d_b84e_1766, 0x96d0_827f_5252_f2d3],
+    [0xf082_d937_5c4a_a37a, 0xa754_c9c4_8f5c_5c1e],
 ];
 
 #[test]

@@ -21,7 +21,8 @@ pub(crate) mod field {
     /// Inverse inertia of `a`, contact frame, six lines; then of `b`.
     pub const INVERSE_INERTIA_A: usize = 6;
     pub const INVERSE_INERTIA_B: usize = 12;
-    /// Arms of the point at which friction acts, three lines each.
+    /// Arms of the place at which friction acts, three lines each. Those of both bodies end there, also when these have moved against
+    /// each other.
     pub const FRICTION_ARM_A: usize = 18;
     pub const FRICTION_ARM_B: usize = 21;
     /// 1 / the largest response to a unit impulse in the tangent plane.
@@ -70,27 +71,24 @@ pub(crate) mod field {
     /// What a sweep does not read of the first point.
     pub const POINT_APART: usize = SWEPT + 24;
 
-    /// Of a point: arm of `a` (x, y, and z of what turns with the body), then of `b`. Arms of both end at one place, also when
-    /// the bodies have moved against each other.
-    pub const ARM_A: usize = 0;
-    pub const ARM_B: usize = 3;
+    /// Of a point: where it is, seen from where friction acts, along t₁ and t₂, m. With the arm of friction it is the arm of the point.
+    pub const LEVER: usize = 0;
     /// 1 / the response to a unit normal impulse; 0 where there is no point.
-    pub const MASS: usize = 6;
+    pub const MASS: usize = 2;
     /// Normal impulse.
-    pub const IMPULSE: usize = 7;
+    pub const IMPULSE: usize = 3;
     /// Distance from where friction acts, m.
-    pub const LEVER: usize = 8;
+    pub const DISTANCE: usize = 4;
     /// The least normal velocity that it may have, m/s.
-    pub const LEAST: usize = 9;
-    pub const POINT_LINES: usize = 10;
+    pub const LEAST: usize = 5;
+    pub const POINT_LINES: usize = 6;
     /// Separation when the two bodies are at their anchors, m.
-    pub const BASE: usize = 10;
+    pub const BASE: usize = 6;
     /// Separation at the start of the substep, m.
-    pub const SEPARATION: usize = 11;
-    /// Arms, x and y, when the contact was renewed.
-    pub const RENEWED_A: usize = 12;
-    pub const RENEWED_B: usize = 14;
-    pub const POINT_LINES_APART: usize = 6;
+    pub const SEPARATION: usize = 7;
+    /// Where it was when the contact was renewed, seen from where friction acted then, three lines.
+    pub const RENEWED_LEVER: usize = 8;
+    pub const POINT_LINES_APART: usize = 5;
 
     /// Impulses of a contact: of its points along the normal, friction, twist.
     pub const ROWS: usize = super::POINTS + 3;

@@ -9,7 +9,8 @@
 //!
 //! Friction acts once for a contact, at the middle of the points that touch, within Coulomb's cone of their impulses; a
 //! twisting impulse about the normal stands for its distribution over them. Going through all rows again and again is projected
-//! Gauss–Seidel (Jourdan, Alart and Jean 1998; Catto 2005). The layout in the contact frame makes one row 30 operations.
+//! Gauss–Seidel (Jourdan, Alart and Jean 1998; Catto 2005). In the contact frame, with
+//! the points' places seen from where friction acts, one row is 30 operations and the same for both bodies.
 //!
 //! *Books*: each impulse acts on both bodies, reversed on one; linear and angular momentum are kept to rounding.
 
@@ -217,14 +218,14 @@ pub(crate) fn work<L: Lanes>(bundle: &Bundle, before: &[Row], after: &[Row]) -> 
         let relative = velocity_b - velocity_a;
         let arms = [vector(bundle, field::FRICTION_ARM_A, part), vector(bundle, field::FRICTION_ARM_B, part)];
         let slip = relative + (spin_b.cross(arms[1]) - spin_a.cross(arms[0]));
+        let spin = spin_b - spin_a;
         let mut sum = line::<L>(bundle, field::FRICTION, part) * slip.x
             + line::<L>(bundle, field::FRICTION + 1, part) * slip.y
-            + line::<L>(bundle, field::TWIST, part) * (spin_b.z - spin_a.z);
+            + line::<L>(bundle, field::TWIST, part) * spin.z;
         for point in 0..bundle.points.min(POINTS) {
-            let of = |line: usize| field::of_point(point, line);
-            let arms = [vector(bundle, of(field::ARM_A), part), vector(bundle, of(field::ARM_B), part)];
-            let parting = relative + (spin_b.cross(arms[1]) - spin_a.cross(arms[0]));
-            sum = sum + line::<L>(bundle, of(field::IMPULSE), part) * parting.z;
+            let [x, y] = lever::<L>(bundle, (point, part));
+            let parting = slip.z + (spin.x * y - spin.y * x);
+            sum = sum + line::<L>(bundle, field::of_point(point, field::IMPULSE), part) * parting;
         }
         sum.store(&mut work, part);
     }
@@ -235,19 +236,28 @@ pub(crate) fn work<L: Lanes>(bundle: &Bundle, before: &[Row], after: &[Row]) -> 
 #[inline(always)]
 fn apply<L: Lanes>(bundle: &Bundle, velocities: SharedRows<'_>, impulses: &[L; field::ROWS], part: usize) {
     let [first, second, third, fourth, x, y, twist] = *impulses;
-    let zero = L::splat(0.0);
-    let across = Vector::new(x, y, zero);
-    let twist = Vector::new(zero, zero, twist);
-    let mut turn_a = vector(bundle, field::FRICTION_ARM_A, part).cross(across) + twist;
-    let mut turn_b = vector(bundle, field::FRICTION_ARM_B, part).cross(across) + twist;
-    let pressures = [first, second, third, fourth];
-    for (point, pressure) in pressures.into_iter().enumerate().take(bundle.points) {
-        let along = Vector::new(zero, zero, pressure);
-        turn_a = turn_a + vector(bundle, field::of_point(point, field::ARM_A), part).cross(along);
-        turn_b = turn_b + vector(bundle, field::of_point(point, field::ARM_B), part).cross(along);
+    let mut moment = Vector::new(L::splat(0.0), L::splat(0.0), twist);
+    for (point, pressure) in [first, second, third, fourth].into_iter().enumerate().take(bundle.points) {
+        moment = moment + pressed(lever(bundle, (point, part)), pressure);
     }
     let impulse = Vector::new(x, y, (first + second) + (third + fourth));
     let frame = Frame::<L>::load(bundle, part);
-    let pushed = Pair::gather(bundle, velocities, part).push(&frame, impulse, [turn_a, turn_b]);
+    let arm_a = vector(bundle, field::FRICTION_ARM_A, part);
+    let arm_b = vector(bundle, field::FRICTION_ARM_B, part);
+    let turns = [arm_a.cross(impulse) + moment, arm_b.cross(impulse) + moment];
+    let pushed = Pair::gather(bundle, velocities, part).push(&frame, impulse, turns);
     scatter(bundle, pushed, velocities, part);
+}
+
+/// Where a point is, seen from where friction acts, along t₁ and t₂.
+#[inline(always)]
+pub(super) fn lever<L: Lanes>(bundle: &Bundle, (point, part): (usize, usize)) -> [L; 2] {
+    let first = field::of_point(point, field::LEVER);
+    [line(bundle, first, part), line(bundle, first + 1, part)]
+}
+
+/// The moment about where friction acts, of an impulse along the normal at such a lever.
+#[inline(always)]
+pub(super) fn pressed<L: Lanes>([x, y]: [L; 2], impulse: L) -> Vector<L> {
+    Vector::new(y * impulse, -(x * impulse), L::splat(0.0))
 }

@@ -153,6 +153,13 @@ impl<L: Lanes> Tensor<L> {
             z: xz * v.x + yz * v.y + zz * v.z,
         }
     }
+
+    /// Times (x, y, 0).
+    #[inline(always)]
+    pub fn times_across(&self, [x, y]: [L; 2]) -> Vector<L> {
+        let [xx, xy, xz, yy, yz, _] = self.0;
+        Vector { x: xx * x + xy * y, y: xy * x + yy * y, z: xz * x + yz * y }
+    }
 }
 
 #[cfg(test)]

@@ -114,15 +114,13 @@ pub(crate) fn fill_lane(
     let middle = middle(points, terms.margin);
     for (index, contact) in points.iter().enumerate() {
         let at = |line: usize| field::of_point(index, line);
+        let lever = frame.inward(contact.point - middle);
+        put(at(field::LEVER), lever.x);
+        put(at(field::LEVER) + 1, lever.y);
+        put_vector(&mut put, at(field::RENEWED_LEVER), lever);
         let arms = sides.each_ref().map(|side| frame.inward(contact.point - side.center));
         // The part of each arm that turns with its body ends where the surface's centre of curvature is.
         let turning = [arms[0] - sides[0].roundness * DVec3::Z, arms[1] + sides[1].roundness * DVec3::Z];
-        put_vector(&mut put, at(field::ARM_A), turning[0]);
-        put_vector(&mut put, at(field::ARM_B), turning[1]);
-        for (line, arm) in [(field::RENEWED_A, arms[0]), (field::RENEWED_B, arms[1])] {
-            put(at(line), arm.x);
-            put(at(line) + 1, arm.y);
-        }
         put(
             at(field::BASE),
             contact.separation - apart - drifts[1].dot(turning[1]) + drifts[0].dot(turning[0]),
@@ -130,7 +128,7 @@ pub(crate) fn fill_lane(
         let response = inverse_mass + about_normal(&inertia[0], arms[0]) + about_normal(&inertia[1], arms[1]);
         put(at(field::MASS), inverse_of(response));
         put(at(field::IMPULSE), remembered.pressure[index]);
-        put(at(field::LEVER), (contact.point - middle).length());
+        put(at(field::DISTANCE), lever.length());
         put(at(field::SEPARATION), contact.separation);
     }
 

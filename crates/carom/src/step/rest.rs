@@ -287,11 +287,13 @@ impl Rest {
             let inward = |v: DVec3| DVec3::new(v.dot(first), v.dot(second), v.dot(normal));
             let relative = (motion[1].0 - motion[0].0).dot(normal);
             let (spin_a, spin_b) = (inward(motion[0].1), inward(motion[1].1));
+            let arms = [field::FRICTION_ARM_A, field::FRICTION_ARM_B].map(|arm| numbers.vector(arm));
+            let relative = relative + (spin_b.cross(arms[1]) - spin_a.cross(arms[0])).z;
+            let spin = spin_b - spin_a;
             (0..self.owners[contact.index()].touched.count()).any(|point| {
                 let at = |line: usize| field::of_point(point, line);
-                let (arm_a, arm_b) = (numbers.vector(at(field::ARM_A)), numbers.vector(at(field::ARM_B)));
-                let speed = relative + (spin_b.x * arm_b.y - spin_b.y * arm_b.x)
-                    - (spin_a.x * arm_a.y - spin_a.y * arm_a.x);
+                let [x, y] = [0, 1].map(|axis| numbers.get(at(field::LEVER) + axis));
+                let speed = relative + (spin.x * y - spin.y * x);
                 let gap = numbers.get(at(field::SEPARATION));
                 let slowest = if gap > horizon { law.drift_speed() } else { law.drift_speed().max(pressed) };
                 speed < -slowest && gap + speed * left < 0.0

@@ -26,18 +26,17 @@ pub(crate) fn measure<L: Lanes>(bundle: &mut Bundle, drifts: &[Row]) {
         let (turn_a, turn_b) = (drift_of_arm(&frame, &drift_a), drift_of_arm(&frame, &drift_b));
         let shift = Shift::new(bundle, &frame, [&drift_a, &drift_b], part);
         let (mut gap, mut widest) = (L::splat(f32::MAX), L::splat(f32::MIN));
+        let [arm_a, arm_b] = shift.arms;
+        let apart = apart + (turn_b.dot(arm_b) - turn_a.dot(arm_a));
+        let (tilt, turn) = (turn_b - turn_a, shift.mean_turn());
         for point in 0..bundle.points.min(POINTS) {
             let at = |line: usize| field::of_point(point, line);
-            let arm_a = renewed::<L>(bundle, [at(field::RENEWED_A), at(field::ARM_A)], part);
-            let arm_b = renewed::<L>(bundle, [at(field::RENEWED_B), at(field::ARM_B)], part);
-            let base = line::<L>(bundle, at(field::BASE), part);
-            let separation = base + apart + turn_b.dot(arm_b) - turn_a.dot(arm_a);
+            let lever = vector::<L>(bundle, at(field::RENEWED_LEVER), part);
+            let separation = line::<L>(bundle, at(field::BASE), part) + apart + tilt.dot(lever);
             separation.store(&mut bundle.lines[at(field::SEPARATION)], part);
-            let shifts = shift.of([arm_a, arm_b]);
-            (arm_a.x + shifts[0].x).store(&mut bundle.lines[at(field::ARM_A)], part);
-            (arm_a.y + shifts[0].y).store(&mut bundle.lines[at(field::ARM_A) + 1], part);
-            (arm_b.x + shifts[1].x).store(&mut bundle.lines[at(field::ARM_B)], part);
-            (arm_b.y + shifts[1].y).store(&mut bundle.lines[at(field::ARM_B) + 1], part);
+            let carried = turn.cross(lever);
+            (lever.x + carried.x).store(&mut bundle.lines[at(field::LEVER)], part);
+            (lever.y + carried.y).store(&mut bundle.lines[at(field::LEVER) + 1], part);
             let real = line::<L>(bundle, at(field::MASS), part);
             gap = L::select_greater(real, L::splat(0.0), [gap.min(separation), gap]);
             widest = L::select_greater(real, L::splat(0.0), [widest.max(separation), widest]);
@@ -47,12 +46,6 @@ pub(crate) fn measure<L: Lanes>(bundle: &mut Bundle, drifts: &[Row]) {
         widest.store(&mut bundle.lines[field::WIDEST], part);
         gap.store(&mut bundle.lines[field::GAP], part);
     }
-}
-
-/// A point's arm when the contact was renewed: x and y of lines `plane`, and z of lines `whole`.
-#[inline(always)]
-fn renewed<L: Lanes>(bundle: &Bundle, [plane, whole]: [usize; 2], part: usize) -> Vector<L> {
-    Vector::new(line(bundle, plane, part), line(bundle, plane + 1, part), line(bundle, whole + 2, part))
 }
 
 /// Twice the vector of a body's turn, contact frame.
@@ -72,6 +65,8 @@ struct Shift<L> {
     turn_a: Vector<L>,
     turn_b: Vector<L>,
     share: L,
+    /// The parts of the arms of friction that turn with their bodies, when the contact was renewed.
+    arms: [Vector<L>; 2],
     /// Where one surface is round, how far the place has gone round it as the other one turned, and the normal with it.
     tilted: Vector<L>,
 }
@@ -86,8 +81,11 @@ impl<L: Lanes> Shift<L> {
         let turn_b = twice_turn(frame, drift_b) - vector(bundle, field::TURNED_B, part);
         // Against what has a large radius, as far as the body's own arm: further round, substeps would have to be shorter.
         let zero = L::splat(0.0);
-        let depth_a = line::<L>(bundle, field::RENEWED_FRICTION_A + 2, part);
-        let depth_b = line::<L>(bundle, field::RENEWED_FRICTION_B + 2, part);
+        let arms = [
+            vector::<L>(bundle, field::RENEWED_FRICTION_A, part),
+            vector(bundle, field::RENEWED_FRICTION_B, part),
+        ];
+        let (depth_a, depth_b) = (arms[0].z, arms[1].z);
         let (radius_a, radius_b) =
             (line::<L>(bundle, field::ROUNDNESS, part), line::<L>(bundle, field::ROUNDNESS + 1, part));
         let round_a = radius_a.min((zero - depth_b).max(zero)) * follows;
@@ -103,25 +101,25 @@ impl<L: Lanes> Shift<L> {
             turn_a,
             turn_b,
             share: line(bundle, field::SHARE, part),
+            arms: turning(bundle, arms, part),
         }
     }
 
-    /// What is added to both arms of a place, whose parts that turn were these when the contact was renewed.
+    /// How far the place turns that both bodies would carry along, rad.
     #[inline(always)]
-    fn of(&self, [arm_a, arm_b]: [Vector<L>; 2]) -> [Vector<L>; 2] {
-        let (carried_a, carried_b) = (self.turn_a.cross(arm_a), self.turn_b.cross(arm_b));
-        let rest = L::splat(1.0) - self.share;
-        [
-            carried_a.scaled(rest) + (carried_b + self.moved).scaled(self.share) + self.tilted,
-            carried_b.scaled(self.share) + (carried_a - self.moved).scaled(rest) + self.tilted,
-        ]
+    fn mean_turn(&self) -> Vector<L> {
+        self.turn_a.scaled(L::splat(1.0) - self.share) + self.turn_b.scaled(self.share)
     }
 
+    /// Lets both arms of friction end where it acts now.
     #[inline(always)]
     fn friction(&self, bundle: &mut Bundle, part: usize) {
+        let (carried_a, carried_b) = (self.turn_a.cross(self.arms[0]), self.turn_b.cross(self.arms[1]));
+        let rest = L::splat(1.0) - self.share;
+        let shift_a = carried_a.scaled(rest) + (carried_b + self.moved).scaled(self.share) + self.tilted;
+        let shift_b = carried_b.scaled(self.share) + (carried_a - self.moved).scaled(rest) + self.tilted;
         let arm_a = vector::<L>(bundle, field::RENEWED_FRICTION_A, part);
         let arm_b = vector::<L>(bundle, field::RENEWED_FRICTION_B, part);
-        let [shift_a, shift_b] = self.of(turning(bundle, [arm_a, arm_b], part));
         store(arm_a + shift_a, bundle, field::FRICTION_ARM_A, part);
         store(arm_b + shift_b, bundle, field::FRICTION_ARM_B, part);
     }

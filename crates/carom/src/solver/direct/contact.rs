@@ -36,7 +36,7 @@ pub(crate) struct Contact {
     pub unknowns: [Unknown; field::ROWS],
     static_friction: f64,
     dynamic_friction: f64,
-    levers: [f64; POINTS],
+    distances: [f64; POINTS],
 }
 
 impl Contact {
@@ -74,8 +74,8 @@ impl Contact {
         let unknowns = std::array::from_fn(|number| match number {
             0..POINTS => {
                 let at = |line: usize| field::of_point(number, line);
-                let arms = [outward(vector(at(field::ARM_A))), outward(vector(at(field::ARM_B)))];
-                unknown(along(normal, arms), get(at(field::LEAST)), number)
+                let lever = outward(DVec3::new(get(at(field::LEVER)), get(at(field::LEVER) + 1), 0.0));
+                unknown(along(normal, arms.map(|arm| arm + lever)), get(at(field::LEAST)), number)
             }
             FIRST => unknown(along(first, arms), -get(field::SWING), number),
             SECOND => unknown(along(second, arms), -get(field::SWING + 1), number),
@@ -87,7 +87,7 @@ impl Contact {
             unknowns,
             static_friction: get(field::STATIC_FRICTION),
             dynamic_friction: get(field::DYNAMIC_FRICTION),
-            levers: std::array::from_fn(|point| get(field::of_point(point, field::LEVER))),
+            distances: std::array::from_fn(|point| get(field::of_point(point, field::DISTANCE))),
         }
     }
 
@@ -151,7 +151,7 @@ impl Contact {
         let points = &self.unknowns[..POINTS];
         let pressure: f64 = points.iter().map(|unknown| unknown.impulse).sum();
         let moment: f64 =
-            points.iter().zip(self.levers).map(|(unknown, lever)| unknown.impulse * lever).sum();
+            points.iter().zip(self.distances).map(|(unknown, distance)| unknown.impulse * distance).sum();
         let both = |load: f64| [self.static_friction * load, self.dynamic_friction * load];
         (both(pressure), both(moment))
     }

@@ -8,7 +8,7 @@ use super::passes::GRAIN;
 use super::{Color, ContactId, Graph};
 use crate::math::DVec3;
 use crate::solver::bundle::{Bundle, POINTS, field};
-use crate::solver::contact::{Frame, line, vector};
+use crate::solver::contact::{Frame, lever, line, pressed, vector};
 use crate::solver::kernels::bring_next;
 use crate::solver::lanes::{Kernel, LANES, Lanes, Line, Row, Vector, WRITABLE};
 
@@ -82,10 +82,12 @@ const PARTS: usize = 4;
 /// What the lanes of a bundle exert: each vector's components in the world.
 type Sums = [[Line; 3]; PARTS];
 
-/// From the mean centre to where both arms end.
+/// From the mean centre to where friction acts.
 #[inline(always)]
-fn mean<L: Lanes>(bundle: &Bundle, [arm_a, arm_b]: [usize; 2], (share, part): (L, usize)) -> Vector<L> {
-    let (arm_a, arm_b) = (vector::<L>(bundle, arm_a, part), vector::<L>(bundle, arm_b, part));
+fn mean_arm<L: Lanes>(bundle: &Bundle, part: usize) -> Vector<L> {
+    let share = line::<L>(bundle, field::SHARE, part);
+    let arm_a = vector::<L>(bundle, field::FRICTION_ARM_A, part);
+    let arm_b = vector::<L>(bundle, field::FRICTION_ARM_B, part);
     arm_a.scaled(L::splat(1.0) - share) + arm_b.scaled(share)
 }
 
@@ -96,13 +98,11 @@ fn sum_up<L: Lanes>(bundle: &Bundle) -> Sums {
     let zero = L::splat(0.0);
     for part in 0..LANES / L::WIDTH {
         let frame = Frame::<L>::load(bundle, part);
-        let share = line::<L>(bundle, field::SHARE, part);
-        let mut pressure = Vector::new(zero, zero, zero);
+        let (mut pressure, mut moment) = (zero, Vector::new(zero, zero, zero));
         for point in 0..bundle.points.min(POINTS) {
-            let at = |line: usize| field::of_point(point, line);
-            let impulse = line::<L>(bundle, at(field::IMPULSE), part);
-            let arm = mean(bundle, [at(field::ARM_A), at(field::ARM_B)], (share, part));
-            pressure = pressure + Vector::new(arm.y * impulse, -(arm.x * impulse), impulse);
+            let impulse = line::<L>(bundle, field::of_point(point, field::IMPULSE), part);
+            pressure = pressure + impulse;
+            moment = moment + pressed(lever(bundle, (point, part)), impulse);
         }
         let friction = Vector::new(
             line::<L>(bundle, field::FRICTION, part),
@@ -110,13 +110,9 @@ fn sum_up<L: Lanes>(bundle: &Bundle) -> Sums {
             zero,
         );
         let twist = Vector::new(zero, zero, line(bundle, field::TWIST, part));
-        let arm = mean(bundle, [field::FRICTION_ARM_A, field::FRICTION_ARM_B], (share, part));
-        let parts = [
-            Vector::new(zero, zero, pressure.z),
-            Vector::new(pressure.x, pressure.y, zero),
-            friction,
-            arm.cross(friction) + twist,
-        ];
+        let arm = mean_arm(bundle, part);
+        let pressure = Vector::new(zero, zero, pressure);
+        let parts = [pressure, arm.cross(pressure) + moment, friction, arm.cross(friction) + twist];
         for number in 0..PARTS {
             let outward = frame.outward(parts[number]);
             outward.x.store(&mut sums[number][0], part);

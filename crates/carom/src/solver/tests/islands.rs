@@ -109,7 +109,7 @@ fn assert_lawful(problem: &Problem, rows: &[Row], impulses: &[[f64; field::ROWS]
                 "point {number} parts at {parting} and pushes {push}"
             );
             pressure += impulse;
-            moment += impulse * get(field::of_point(number, field::LEVER));
+            moment += impulse * get(field::of_point(number, field::DISTANCE));
         }
         let axis = |line: usize| DVec3::new(get(line), get(line + 1), get(line + 2));
         let (first, normal) = (axis(field::TANGENT), axis(field::NORMAL));

@@ -129,15 +129,11 @@ impl Past<'_> {
         first * v.x + normal.cross(first) * v.y + normal * v.z
     }
 
-    /// Where two arms end. Both bodies may have moved a little since: half way.
-    fn end(&self, centers: [DVec3; 2], arm_a: usize, arm_b: usize) -> DVec3 {
-        let [a, b] = [arm_a, arm_b].map(|arm| self.outward(self.numbers.vector(arm)));
-        0.5 * (centers[0] + a + centers[1] + b)
-    }
-
-    /// Where it pressed at a point.
+    /// Where it pressed at a point, but for how far that is along the normal from where friction acted.
     fn place(&self, point: usize, centers: [DVec3; 2]) -> DVec3 {
-        self.end(centers, field::of_point(point, field::ARM_A), field::of_point(point, field::ARM_B))
+        let line = field::of_point(point, field::LEVER);
+        let [first, second] = [line, line + 1].map(|field| self.numbers.get(field));
+        self.middle(centers) + self.outward(DVec3::new(first, second, 0.0))
     }
 
     /// How it pressed there, N·s.
@@ -145,9 +141,11 @@ impl Past<'_> {
         self.numbers.get(field::of_point(point, field::IMPULSE))
     }
 
-    /// Where friction acted.
+    /// Where friction acted, by both arms. Both bodies may have moved a little since: half way.
     fn middle(&self, centers: [DVec3; 2]) -> DVec3 {
-        self.end(centers, field::FRICTION_ARM_A, field::FRICTION_ARM_B)
+        let arms = [field::FRICTION_ARM_A, field::FRICTION_ARM_B];
+        let [a, b] = arms.map(|arm| self.outward(self.numbers.vector(arm)));
+        0.5 * (centers[0] + a + centers[1] + b)
     }
 
     /// What it was, N·s.
