@@ -182,12 +182,12 @@ const THREADS: [u32; 3] = [1, 2, 4];
 
 /// The hashes of states and events of [pile, mesh, gas, cradle, stack, crowd].
 const EXPECTED: [[u64; 2]; 6] = [
-    [0xa4b3_3559_fcc9_4128, 0x9890_e6d6_5200_7f38],
-    [0x50a9_3213_b4ac_e9c9, 0xb30b_7829_8a2b_318a],
+    [0xc868_0a56_4fb6_9b18, 0x2d51_4a97_9d5a_d0f2],
+    [0xa455_bce9_7685_828c, 0xebb8_cec1_33e7_2ce3],
     [0xb7c9_a597_8de9_22c8, 0x12d9_d339_e94d_7830],
     [0x495a_c80e_1b79_9fde, 0x046b_b65b_a085_2bf1],
-    [0xa986_b83d_b84e_1766, 0x96d0_827f_5252_f2d3],
-    [0xf082_d937_5c4a_a37a, 0xa754_c9c4_8f5c_5c1e],
+    [0xbeba_85b5_0056_f773, 0xbb5c_34bb_ee40_06d7],
+    [0x3bf4_5fff_f0df_02de, 0xf6a0_b2f1_bb9c_509e],
 ];
 
 #[test]
