@@ -182,12 +182,12 @@ const THREADS: [u32; 3] = [1, 2, 4];
 
 /// The hashes of states and events of [pile, mesh, gas, cradle, stack, crowd].
 const EXPECTED: [[u64; 2]; 6] = [
-    [0xc868_0a56_4fb6_9b18, 0x2d51_4a97_9d5a_d0f2],
-    [0xa455_bce9_7685_828c, 0xebb8_cec1_33e7_2ce3],
+    [0x0843_3695_b42f_796d, 0x9532_3b73_4f77_6be3],
+    [0xc897_421b_1541_c834, 0x4cde_a7a7_540b_c88c],
     [0xb7c9_a597_8de9_22c8, 0x12d9_d339_e94d_7830],
     [0x495a_c80e_1b79_9fde, 0x046b_b65b_a085_2bf1],
-    [0xbeba_85b5_0056_f773, 0xbb5c_34bb_ee40_06d7],
-    [0x3bf4_5fff_f0df_02de, 0xf6a0_b2f1_bb9c_509e],
+    [0x0974_f0f4_0a04_40a5, 0xbb5c_34bb_ee40_06d7],
+    [0xe7f7_a0bd_9951_7bde, 0x4add_b67f_787d_eaa3],
 ];
 
 #[test]

@@ -65,6 +65,8 @@ pub(crate) struct Rest {
     work: Work,
     /// Whether each body's contacts are to be renewed.
     has_moved: Vec<bool>,
+    /// Substeps so far.
+    substeps: usize,
 }
 
 /// A stretch of a step.
@@ -86,6 +88,7 @@ impl Rest {
             manners: Vec::new(),
             work: Work::default(),
             has_moved: Vec::new(),
+            substeps: 0,
         }
     }
 
