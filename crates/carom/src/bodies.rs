@@ -23,6 +23,7 @@ mod state;
 use crate::body::{Body, Collider, Motion};
 use crate::error::Invalid;
 use crate::flight::{Constants, Influence, RigidState};
+use crate::impacts::time_of_impact::is_exact;
 use crate::ledger::Stock;
 use crate::ledger::journal::Journal;
 use crate::mass::BodyMass;
@@ -203,7 +204,8 @@ impl Bodies {
             filter: collider.filter.clone(),
             sensor: collider.sensor,
         };
-        let outline = Outline { row: owner.row as u32, reach };
+        let outline =
+            Outline { row: owner.row as u32, is_exact: is_exact(&collider.shape), reach, spin_reach };
         if let Some(key) = self.free_colliders.pop() {
             (self.colliders[key as usize], self.outlines[key as usize]) = (Some(entry), outline);
             key

@@ -54,9 +54,13 @@ pub(crate) struct ColliderRow {
     pub sensor: bool,
 }
 
-/// Of a collider what many ask that look for what is near: its body's row, and its reach (m).
+/// Of a collider what pairs ask, and whoever looks for what is near: its body's row, and how far it reaches (m), as in its
+/// [`ColliderRow`].
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Outline {
     pub row: u32,
+    /// Whether our own kernels tell how far it is from others, and not parry's iterations.
+    pub is_exact: bool,
     pub reach: f64,
+    pub spin_reach: f64,
 }

@@ -174,7 +174,7 @@ impl Seam<'_> {
     #[inline]
     fn is_far(&self, other: u32, ball: &Ball) -> bool {
         let bodies = self.approach.bodies;
-        let Outline { row, reach } = bodies.outline(other);
+        let Outline { row, reach, .. } = bodies.outline(other);
         let row = row as usize;
         let flown = bodies.paces[row].0 * (self.time - bodies.clocks[row]).abs();
         let far = (1.0 + GAP + 2.0 * SLACK) * reach + ball.radius + flown;

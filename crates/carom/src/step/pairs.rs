@@ -40,7 +40,7 @@ pub(crate) struct Pairs {
     list: Blocks<Option<Pair>>,
     free: Vec<u32>,
     /// The pairs of each body, in order of their colliders' keys.
-    of_row: Vec<Vec<Entry>>,
+    of_row: Vec<Vec<u32>>,
     /// Pairs that somebody has got to change since the step began.
     changed: Vec<u32>,
     /// What happens in the present step to pairs to which anything does; the first entry is what happens to the others.
@@ -77,11 +77,12 @@ impl Pairs {
         for &key in broad_phase.boxed() {
             let Some(row) = bodies.collider(key).map(|collider| collider.row) else { continue };
             let mut number = 0;
-            while let Some(&entry) = self.of_row[row].get(number) {
-                if !entry.has(key) || broad_phase.are_near(bodies, entry.colliders) {
+            while let Some(&index) = self.of_row[row].get(number) {
+                let pair = &self[index as usize];
+                if !pair.has(key) || broad_phase.are_near(bodies, pair.colliders) {
                     number += 1;
                 } else {
-                    parted.extend(self.take_out(entry).filter(|pair| pair.rests));
+                    parted.extend(self.take_out(index).filter(|pair| pair.rests));
                 }
             }
         }
@@ -125,29 +126,26 @@ impl Pairs {
             (self.list.len() - 1) as u32
         });
         self.list[index as usize] = Some(pair);
-        let entry = Entry { colliders, index };
         for row in rows.into_iter().filter(|&row| row != WORLD_ROW) {
             let place = self.find(row, colliders).unwrap_or_else(|place| place);
-            self.of_row[row].put(entry);
+            self.of_row[row].put(index);
             self.of_row[row][place..].rotate_right(1);
         }
-        self.watch(entry);
+        self.watch(index as usize);
         Some(index as usize)
     }
 
     fn find(&self, row: usize, colliders: ColliderPair) -> Result<usize, usize> {
-        self.of_row[row].binary_search_by_key(&colliders, |entry| entry.colliders)
+        self.of_row[row].binary_search_by_key(&colliders, |&index| self[index as usize].colliders)
     }
 
-    fn take_out(&mut self, entry: Entry) -> Option<Pair> {
-        let pair = self.list[entry.index as usize].take()?;
-        self.free.push(entry.index);
+    fn take_out(&mut self, index: u32) -> Option<Pair> {
+        let pair = self.list[index as usize].as_ref()?;
         for row in pair.rows().into_iter().filter(|&row| row != WORLD_ROW) {
-            if let Ok(place) = self.find(row, entry.colliders) {
-                self.of_row[row].remove(place);
-            }
+            self.of_row[row].retain(|&other| other != index);
         }
-        Some(pair)
+        self.free.push(index);
+        self.list[index as usize].take()
     }
 
     /// No index reaches this.
@@ -212,27 +210,25 @@ impl Pairs {
 
     /// One of them.
     pub fn of_row(&self, row: usize, number: usize) -> usize {
-        self.of_row[row][number].index as usize
+        self.of_row[row][number] as usize
     }
 
     /// All pairs of the body of a row: their colliders and indices.
     pub fn each_of_row(&self, row: usize) -> impl Iterator<Item = (ColliderPair, usize)> {
-        self.of_row[row].iter().map(|entry| (entry.colliders, entry.index as usize))
+        let indices = self.of_row[row].iter().map(|&index| index as usize);
+        indices.map(|index| (self[index].colliders, index))
     }
 
     /// Takes out the pairs of a collider of the body of a row.
     pub fn remove(&mut self, collider: u32, row: usize) -> Vec<Pair> {
-        let entries: Vec<Entry> = if row == WORLD_ROW {
-            let all = self.list.iter().enumerate();
-            let entry = |(index, pair): (usize, &Option<Pair>)| {
-                Some(Entry { colliders: pair.as_ref()?.colliders, index: index as u32 })
-            };
-            all.filter_map(entry).filter(|entry| entry.has(collider)).collect()
+        let has = |index: u32| self.list[index as usize].as_ref().is_some_and(|pair| pair.has(collider));
+        let indices: Vec<u32> = if row == WORLD_ROW {
+            (0..self.list.len() as u32).filter(|&index| has(index)).collect()
         } else {
-            let entries = self.of_row.get(row).into_iter().flatten();
-            entries.filter(|entry| entry.has(collider)).copied().collect()
+            let indices = self.of_row.get(row).into_iter().flatten().copied();
+            indices.filter(|&index| has(index)).collect()
         };
-        entries.into_iter().filter_map(|entry| self.take_out(entry)).collect()
+        indices.into_iter().filter_map(|index| self.take_out(index)).collect()
     }
 
     /// The body of `row` is no more, nor are its pairs; that of the last row, `last`, gets its row.
@@ -240,17 +236,11 @@ impl Pairs {
         self.grow(last + 1);
         self.of_row.swap_remove(row);
         self.watch.remove_row(row, last);
-        for entry in self.of_row.get(row).into_iter().flatten() {
-            if let Some(pair) = &mut self.list[entry.index as usize] {
+        for &index in self.of_row.get(row).into_iter().flatten() {
+            if let Some(pair) = &mut self.list[index as usize] {
                 pair.move_row(last, row);
             }
         }
-    }
-}
-
-impl Entry {
-    fn has(&self, collider: u32) -> bool {
-        self.colliders.0 == collider || self.colliders.1 == collider
     }
 }
 

@@ -18,14 +18,11 @@ impl Pairs {
     fn validate(&self, bodies: &Bodies) {
         let mut listed = vec![0; self.list.len()];
         for (row, entries) in self.of_row.iter().enumerate() {
-            assert!(entries.is_sorted_by(|a, b| a.colliders < b.colliders), "pairs of {row} in order");
-            for entry in entries {
-                let pair = self.list[entry.index as usize].as_ref().expect("a pair");
-                assert!(
-                    pair.colliders == entry.colliders && pair.rows().contains(&row),
-                    "{entry:?} of {row}"
-                );
-                listed[entry.index as usize] += 1;
+            let colliders = |&index: &u32| self[index as usize].colliders;
+            assert!(entries.is_sorted_by(|a, b| colliders(a) < colliders(b)), "pairs of {row} in order");
+            for &index in entries {
+                assert!(self[index as usize].rows().contains(&row), "{:?} of {row}", colliders(&index));
+                listed[index as usize] += 1;
             }
         }
         for (index, pair) in self.list.iter().enumerate() {
