@@ -325,8 +325,8 @@ impl Bodies {
 
     /// The outline of a collider that there is.
     #[inline]
-    pub fn outline(&self, key: u32) -> Outline {
-        self.outlines[key as usize]
+    pub fn outline(&self, key: u32) -> &Outline {
+        &self.outlines[key as usize]
     }
 
     /// How far (m, rad) the body's path has led by `time` within the step, at least: grows with time, and two times on the

@@ -355,7 +355,7 @@ pub(crate) fn is_exact(shape: &Shape) -> bool {
 
 /// Separation up to which the surfaces of two colliders count as touching, m.
 #[inline]
-pub(crate) fn tolerance(a: Outline, b: Outline) -> f64 {
+pub(crate) fn tolerance(a: &Outline, b: &Outline) -> f64 {
     let accuracy = if a.is_exact && b.is_exact { OWN_ACCURACY } else { PARRY_ACCURACY };
     accuracy * a.reach.min(b.reach)
 }

@@ -159,13 +159,16 @@ impl BroadPhase {
 
     /// Whether two colliders, which are allowed to touch, are a pair.
     pub fn are_near(&self, bodies: &Bodies, (a, b): ColliderPair) -> bool {
-        let is_plane = |key| bodies.collider(key).is_some_and(|it| matches!(it.shape, Shape::Plane));
         let (one, other) = (&self.boxes[a as usize], &self.boxes[b as usize]);
+        // Most that are asked still are. A plane has no box: only what reaches everywhere meets it.
+        if one.intersects(other) {
+            return true;
+        }
+        let is_plane = |key| bodies.collider(key).is_some_and(|it| matches!(it.shape, Shape::Plane));
         match (is_plane(a), is_plane(b)) {
-            (true, true) => false,
             (true, false) => below_plane(bodies, a, other),
             (false, true) => below_plane(bodies, b, one),
-            (false, false) => one.intersects(other),
+            _ => false,
         }
     }
 

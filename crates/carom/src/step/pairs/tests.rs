@@ -1,7 +1,7 @@
 //! Pairs against a search of all colliders, while bodies fly, come, go and are meddled with.
 
 use super::watch::merge;
-use super::{Entry, Pair, Pairs};
+use super::{Entry, Neighbor, Pair, Pairs};
 use crate::bodies::{Bodies, ColliderRow, WORLD_ROW};
 use crate::collide::separation;
 use crate::filter::{Accepts, Filter, Groups};
@@ -18,11 +18,13 @@ impl Pairs {
     fn validate(&self, bodies: &Bodies) {
         let mut listed = vec![0; self.list.len()];
         for (row, entries) in self.of_row.iter().enumerate() {
-            let colliders = |&index: &u32| self[index as usize].colliders;
+            let colliders = |it: &Neighbor| self[it.index as usize].colliders;
             assert!(entries.is_sorted_by(|a, b| colliders(a) < colliders(b)), "pairs of {row} in order");
-            for &index in entries {
-                assert!(self[index as usize].rows().contains(&row), "{:?} of {row}", colliders(&index));
-                listed[index as usize] += 1;
+            for it in entries {
+                let pair = &self[it.index as usize];
+                assert!(pair.rows().contains(&row) && pair.has(it.other), "{:?} of {row}", colliders(it));
+                assert_ne!(bodies.collider(it.other).expect("it is there").row, row, "{it:?} of {row}");
+                listed[it.index as usize] += 1;
             }
         }
         for (index, pair) in self.list.iter().enumerate() {

@@ -129,34 +129,34 @@ impl Rest {
         let movable = pair.rows().map(|row| bodies.constants[row].is_movable());
         (pair.is_pressed, pair.is_outdated) = (view.is_pressed, false);
         let owner = Owner::of(bodies, pair, index, view.contacts.len());
-        let mut contacts: Few = self.contacts(pair).collect();
-        for (number, (touched, lane)) in view.contacts.iter().enumerate() {
-            let contact = match contacts.get(number) {
-                Some(&contact) => {
-                    self.graph.write(contact, lane);
-                    contact
-                }
-                None => {
-                    pair.rows().into_iter().for_each(|row| self.rows.hold(row));
-                    let contact = self.graph.insert(rows, movable, lane);
-                    contacts.push(contact);
-                    contact
-                }
+        let mut old = std::mem::replace(&mut pair.first_contact, ContactId::NONE);
+        let mut last = ContactId::NONE;
+        for (touched, lane) in &view.contacts {
+            let contact = if old == ContactId::NONE {
+                pair.rows().into_iter().for_each(|row| self.rows.hold(row));
+                self.graph.insert(rows, movable, lane)
+            } else {
+                self.graph.write(old, lane);
+                let next = self.owners[old.index()].next;
+                std::mem::replace(&mut old, next)
             };
             let count = self.owners.len().max(contact.index() + 1);
             self.owners.lengthen(count, Owner::NOBODY);
             self.owners[contact.index()] = Owner { touched: *touched, ..owner };
             self.manners.lengthen(count, Manner::default());
             self.manners[contact.index()] = view.manner;
+            if last == ContactId::NONE {
+                pair.first_contact = contact;
+            } else {
+                self.owners[last.index()].next = contact;
+            }
+            last = contact;
         }
-        for contact in contacts.drain(view.contacts.len()..) {
-            self.release(contact);
+        while old != ContactId::NONE {
+            let next = self.owners[old.index()].next;
+            self.release(std::mem::replace(&mut old, next));
         }
-        for (contact, &next) in contacts.iter().zip(contacts.iter().skip(1)) {
-            self.owners[contact.index()].next = next;
-        }
-        pair.first_contact = contacts.first().copied().unwrap_or(ContactId::NONE);
-        pair.rests = !contacts.is_empty();
+        pair.rests = pair.first_contact != ContactId::NONE;
         pairs.watch_over(index);
     }
 
