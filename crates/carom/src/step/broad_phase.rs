@@ -262,7 +262,7 @@ fn push_pair(bodies: &Bodies, a: u32, b: u32, pairs: &mut Vec<ColliderPair>) {
 fn may_touch(bodies: &Bodies, a: &ColliderRow, b: &ColliderRow) -> bool {
     let movable = |collider: &ColliderRow| bodies.constants[collider.row].is_movable();
     let meet = if a.sensor || b.sensor { !(a.sensor && b.sensor) } else { movable(a) || movable(b) };
-    a.slot != b.slot && meet && a.filter.allows(&b.filter)
+    a.slot != b.slot && meet && a.allows(b)
 }
 
 /// The order in which touches of one instant are handled: by bodies, then by their colliders.

@@ -92,7 +92,7 @@ fn validate(world: &World) {
                 0 => movable(one) || movable(other),
                 _ => sensors == 1 && !fixed,
             };
-            if one.slot == other.slot || !meet || !one.filter.allows(&other.filter) {
+            if one.slot == other.slot || !meet || !one.allows(other) {
                 continue;
             }
             let colliders = if one.slot < other.slot { (key, other_key) } else { (other_key, key) };
