@@ -10,19 +10,23 @@
 //! ```text
 //! bodies/state.rs    what users name bodies by, and read of them
 //! bodies/record.rs   what the table keeps of a body and of its colliders
+//! bodies/description.rs  what bodies were made from
 //! bodies/forces.rs   what users push bodies with
 //! ```
 //!
 //! Slots are stable and named by ids; rows are dense, so a step walks them in order. An id carries the generation of
 //! its slot, hence an id of a removed body never names another one.
 
+mod description;
 mod forces;
 mod record;
 mod state;
 
 use crate::body::{Body, Collider, Motion};
 use crate::error::Invalid;
+use crate::filter::Filter;
 use crate::flight::{Constants, Influence, RigidState};
+use crate::impacts::time_of_impact::is_exact;
 use crate::ledger::Stock;
 use crate::ledger::journal::Journal;
 use crate::mass::BodyMass;
@@ -30,6 +34,7 @@ use crate::math::{DQuat, DVec3, Pose, Vec3};
 use crate::room::Room;
 use crate::shape::Shape;
 use crate::step::motion::Plan;
+use description::Description;
 use forces::Forces;
 pub(crate) use record::{Activity, ColliderRow, Outline, Record};
 use smallvec::SmallVec;
@@ -150,6 +155,7 @@ impl Bodies {
             asleep: false,
         };
         let slot = &mut self.slots[index as usize];
+        let description = Description::new(description, takes_part);
         slot.record = Some(Record { description, mass, state, row, activity, colliders, fixed_pose });
         (BodyId { index, generation: slot.generation }, verdict)
     }
@@ -200,10 +206,11 @@ impl Bodies {
             reach,
             spin_reach,
             material: collider.material,
-            filter: collider.filter.clone(),
+            filter: Some(&collider.filter).filter(|it| **it != Filter::default()).cloned().map(Box::new),
             sensor: collider.sensor,
         };
-        let outline = Outline { row: owner.row as u32, reach };
+        let outline =
+            Outline { row: owner.row as u32, is_exact: is_exact(&collider.shape), reach, spin_reach };
         if let Some(key) = self.free_colliders.pop() {
             (self.colliders[key as usize], self.outlines[key as usize]) = (Some(entry), outline);
             key
@@ -266,6 +273,8 @@ impl Bodies {
 
     /// Takes a body out of the simulation where it was last seen whole; returns the keys of its colliders.
     pub fn quarantine(&mut self, slot: u32) -> SmallVec<[u32; 4]> {
+        // Its colliders are part of what it was made from.
+        self.record(slot).and_then(|record| record.description(|key| self.collider(key)));
         let Some(record) = self.slots[slot as usize].record.as_mut() else { return SmallVec::new() };
         record.activity = Activity::Quarantined;
         record.state.linear_velocity = Vec3::ZERO;
@@ -285,6 +294,11 @@ impl Bodies {
     pub fn get_mut(&mut self, id: BodyId) -> Option<&mut Record> {
         let slot = self.slots.get_mut(id.index())?;
         slot.record.as_mut().filter(|_| slot.generation == id.generation)
+    }
+
+    /// What a body was made from.
+    pub fn description(&self, id: BodyId) -> Option<&Body> {
+        self.get(id)?.description(|key| self.collider(key))
     }
 
     /// The id of the body in a slot, if there is one.
@@ -323,8 +337,8 @@ impl Bodies {
 
     /// The outline of a collider that there is.
     #[inline]
-    pub fn outline(&self, key: u32) -> Outline {
-        self.outlines[key as usize]
+    pub fn outline(&self, key: u32) -> &Outline {
+        &self.outlines[key as usize]
     }
 
     /// How far (m, rad) the body's path has led by `time` within the step, at least: grows with time, and two times on the

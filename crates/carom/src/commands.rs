@@ -166,7 +166,7 @@ impl<'world> BodyMut<'world> {
     /// Sets what you have stored with the body.
     pub fn set_user_data(&mut self, user_data: u64) {
         if let Some(record) = self.world.bodies.get_mut(self.id) {
-            record.description.user_data = user_data;
+            record.description.set_user_data(user_data);
         }
     }
 

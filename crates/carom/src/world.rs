@@ -202,7 +202,7 @@ impl World {
 
     /// What the body was made from, if it is there.
     pub fn description(&self, id: BodyId) -> Option<&Body> {
-        self.bodies.get(id).map(|record| &record.description)
+        self.bodies.description(id)
     }
 
     /// Mass properties as used (infinite where nothing moves it), if it is there.

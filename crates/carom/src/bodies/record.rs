@@ -1,7 +1,7 @@
 //! What the table keeps of a body and of its colliders.
 
 use super::BodyState;
-use crate::body::Body;
+use super::description::Description;
 use crate::filter::Filter;
 use crate::mass::BodyMass;
 use crate::material::Material;
@@ -23,7 +23,7 @@ pub(crate) enum Activity {
 /// A body as the table keeps it.
 #[derive(Clone, Debug)]
 pub(crate) struct Record {
-    pub description: Body,
+    pub description: Description,
     pub mass: BodyMass,
     pub state: BodyState,
     pub row: usize,
@@ -50,13 +50,31 @@ pub(crate) struct ColliderRow {
     /// The same, but of what moves when the body turns: 0 for a ball around the centre of mass.
     pub spin_reach: f64,
     pub material: Material,
-    pub filter: Filter,
+    /// Whom it touches, unless it is in no group and touches everything, as most are.
+    pub filter: Option<Box<Filter>>,
     pub sensor: bool,
 }
 
-/// Of a collider what many ask that look for what is near: its body's row, and its reach (m).
+impl ColliderRow {
+    /// Whether its filter and another one's accept each other.
+    #[inline]
+    pub fn allows(&self, other: &ColliderRow) -> bool {
+        if self.filter.is_none() && other.filter.is_none() {
+            return true;
+        }
+        let open = Filter::default();
+        let [one, other] = [self, other].map(|it| it.filter.as_deref().unwrap_or(&open));
+        one.allows(other)
+    }
+}
+
+/// Of a collider what pairs ask, and whoever looks for what is near: its body's row, and how far it reaches (m), as in its
+/// [`ColliderRow`].
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Outline {
     pub row: u32,
+    /// Whether our own kernels tell how far it is from others, and not parry's iterations.
+    pub is_exact: bool,
     pub reach: f64,
+    pub spin_reach: f64,
 }

@@ -210,6 +210,7 @@ impl<'a> Instant<'a> {
         if left == 0.0 {
             return true;
         }
+        let spin_reaches = pair.spin_reaches(self.bodies);
         let speed = |side: usize| {
             let row = pair.rows()[side];
             let (linear, angular) = match self.mover_of_row.binary_search_by_key(&row, |&(row, _)| row) {
@@ -220,7 +221,7 @@ impl<'a> Instant<'a> {
                 }
                 Err(_) => self.bodies.paces[row],
             };
-            linear + angular * pair.spin_reach[side]
+            linear + angular * spin_reaches[side]
         };
         speed(0) + speed(1) > left
     }

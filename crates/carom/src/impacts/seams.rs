@@ -138,7 +138,13 @@ impl Seam<'_> {
         let Some(around) = self.ball_around(&places) else { return Vec::new() };
         let mut found: Vec<Beside> = Vec::new();
         for row in rows.into_iter().filter(|&row| row != WORLD_ROW && bodies.constants[row].is_movable()) {
-            for ((first, second), index) in pairs.each_of_row(row) {
+            for (neighbor, index) in pairs.each_of_row(row) {
+                // Whoever is neither of the two is the other one of its pair, or of none that matters.
+                if neighbor != a && neighbor != b && self.is_far(neighbor, &around) {
+                    continue;
+                }
+                let pair = &pairs[index];
+                let (first, second) = pair.colliders;
                 let (shares_first, shares_second) = (first == a || second == a, first == b || second == b);
                 if shares_first == shares_second {
                     continue;
@@ -148,7 +154,6 @@ impl Seam<'_> {
                 if self.is_far(other, &around) || !self.comes_near(other, shares_first, &places) {
                     continue;
                 }
-                let pair = &pairs[index];
                 let may_touch =
                     || pairs.least_separation(bodies, index, self.time) <= self.margin + approach.flush();
                 if !pair.sensor
@@ -174,7 +179,7 @@ impl Seam<'_> {
     #[inline]
     fn is_far(&self, other: u32, ball: &Ball) -> bool {
         let bodies = self.approach.bodies;
-        let Outline { row, reach } = bodies.outline(other);
+        let &Outline { row, reach, .. } = bodies.outline(other);
         let row = row as usize;
         let flown = bodies.paces[row].0 * (self.time - bodies.clocks[row]).abs();
         let far = (1.0 + GAP + 2.0 * SLACK) * reach + ball.radius + flown;

@@ -7,7 +7,7 @@ mod root;
 mod search;
 mod straight;
 
-use crate::bodies::{Bodies, ColliderRow, WORLD_ROW};
+use crate::bodies::{Bodies, ColliderRow, Outline, WORLD_ROW};
 use crate::collide::{self, ContactPoint, Gap, Manifold};
 use crate::flight::{RigidState, fly_center};
 use crate::impacts::foreseen::Foreseen;
@@ -107,7 +107,7 @@ impl<'a> Approach<'a> {
     pub fn of(bodies: &'a Bodies, keys: (u32, u32), law: RestLaw) -> Option<Self> {
         let (a, b) = (bodies.collider(keys.0)?, bodies.collider(keys.1)?);
         let origin = bodies.center_pose(if a.row == WORLD_ROW { b } else { a }).position;
-        let tolerance = tolerance(a, b);
+        let tolerance = tolerance(bodies.outline(keys.0), bodies.outline(keys.1));
         let (noise, foreseen) = (OnceCell::new(), Foreseen::default());
         Some(Self { bodies, keys, a, b, law, origin, tolerance, noise, foreseen })
     }
@@ -345,19 +345,18 @@ impl<'a> Approach<'a> {
     }
 }
 
+/// Whether our own kernels tell how far a shape is from others that are so.
+pub(crate) fn is_exact(shape: &Shape) -> bool {
+    matches!(
+        shape,
+        Shape::Sphere { .. } | Shape::Cuboid { .. } | Shape::Capsule { .. } | Shape::Plane | Shape::Hull(_)
+    )
+}
+
 /// Separation up to which the surfaces of two colliders count as touching, m.
-pub(crate) fn tolerance(a: &ColliderRow, b: &ColliderRow) -> f64 {
-    let own = |shape: &Shape| {
-        matches!(
-            shape,
-            Shape::Sphere { .. }
-                | Shape::Cuboid { .. }
-                | Shape::Capsule { .. }
-                | Shape::Plane
-                | Shape::Hull(_)
-        )
-    };
-    let accuracy = if own(&a.shape) && own(&b.shape) { OWN_ACCURACY } else { PARRY_ACCURACY };
+#[inline]
+pub(crate) fn tolerance(a: &Outline, b: &Outline) -> f64 {
+    let accuracy = if a.is_exact && b.is_exact { OWN_ACCURACY } else { PARRY_ACCURACY };
     accuracy * a.reach.min(b.reach)
 }
 

@@ -32,6 +32,9 @@ use std::sync::Arc;
 pub(crate) struct ContactId(u32);
 
 impl ContactId {
+    /// Names none.
+    pub const NONE: ContactId = ContactId(u32::MAX);
+
     pub fn index(self) -> usize {
         self.0 as usize
     }

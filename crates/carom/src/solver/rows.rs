@@ -16,8 +16,6 @@ pub(crate) struct Rows {
     pub velocities: Vec<Row>,
     /// Translation (m) and turn `(x, y, z, w)` since the anchor; and the body's [`LEASH`].
     pub drifts: Vec<Row>,
-    /// Displacements that push overlaps out, laid out like velocities (m, rad).
-    pub displacements: Vec<Row>,
     /// Poses that bodies had when their contacts were last looked at.
     pub anchors: Vec<Pose>,
     /// What contacts gave to it in the last substep in which it had any, laid out like velocities.
@@ -42,7 +40,6 @@ impl Rows {
         let mut rows = Self {
             velocities: Vec::new(),
             drifts: Vec::new(),
-            displacements: Vec::new(),
             anchors: Vec::new(),
             given: Vec::new(),
             haunts: Vec::new(),
@@ -59,7 +56,6 @@ impl Rows {
         if count > self.contacts.len() {
             self.velocities.resize(count, Row::ZERO);
             self.drifts.resize(count, UNTURNED);
-            self.displacements.resize(count, Row::ZERO);
             self.anchors.resize(count, Pose::IDENTITY);
             self.given.resize(count, Row::ZERO);
             self.haunts.resize(count, (DVec3::NAN, 0.0));
@@ -72,7 +68,6 @@ impl Rows {
         if row < self.contacts.len() {
             self.velocities.swap_remove(row);
             self.drifts.swap_remove(row);
-            self.displacements.swap_remove(row);
             self.anchors.swap_remove(row);
             self.given.swap_remove(row);
             self.haunts.swap_remove(row);

@@ -159,13 +159,16 @@ impl BroadPhase {
 
     /// Whether two colliders, which are allowed to touch, are a pair.
     pub fn are_near(&self, bodies: &Bodies, (a, b): ColliderPair) -> bool {
-        let is_plane = |key| bodies.collider(key).is_some_and(|it| matches!(it.shape, Shape::Plane));
         let (one, other) = (&self.boxes[a as usize], &self.boxes[b as usize]);
+        // Most that are asked still are. A plane has no box: only what reaches everywhere meets it.
+        if one.intersects(other) {
+            return true;
+        }
+        let is_plane = |key| bodies.collider(key).is_some_and(|it| matches!(it.shape, Shape::Plane));
         match (is_plane(a), is_plane(b)) {
-            (true, true) => false,
             (true, false) => below_plane(bodies, a, other),
             (false, true) => below_plane(bodies, b, one),
-            (false, false) => one.intersects(other),
+            _ => false,
         }
     }
 
@@ -259,7 +262,7 @@ fn push_pair(bodies: &Bodies, a: u32, b: u32, pairs: &mut Vec<ColliderPair>) {
 fn may_touch(bodies: &Bodies, a: &ColliderRow, b: &ColliderRow) -> bool {
     let movable = |collider: &ColliderRow| bodies.constants[collider.row].is_movable();
     let meet = if a.sensor || b.sensor { !(a.sensor && b.sensor) } else { movable(a) || movable(b) };
-    a.slot != b.slot && meet && a.filter.allows(&b.filter)
+    a.slot != b.slot && meet && a.allows(b)
 }
 
 /// The order in which touches of one instant are handled: by bodies, then by their colliders.

@@ -122,7 +122,8 @@ impl<'a> Events<'a> {
         let pair = &self.pairs[index];
         !pair.rests
             && !self.pairs.has_present(index)
-            && self.pairs.least_separation(self.bodies, index, self.end_of_path(pair, span)) > pair.tolerance
+            && self.pairs.least_separation(self.bodies, index, self.end_of_path(pair, span))
+                > pair.tolerance(self.bodies)
     }
 
     /// Until when the paths of a pair's bodies are known, s: what contacts hold gets a new one in each substep.
@@ -161,19 +162,20 @@ impl<'a> Events<'a> {
     fn answer(&self, index: usize, span: Span) -> Answer {
         let pair = &self.pairs[index];
         let until = self.end_of_path(pair, span);
+        let tolerance = pair.tolerance(self.bodies);
         let mut answer = Answer { until, gap: None, apart: [f64::NEG_INFINITY; 2], instant: None };
         let may_touch = if pair.rests {
             !self.rest.presses(self.bodies, pair, self.law)
                 && self.rest.is_driven(self.bodies, pair, self.law, span)
         } else {
-            self.pairs.least_separation(self.bodies, index, until) <= pair.tolerance
+            self.pairs.least_separation(self.bodies, index, until) <= tolerance
         };
         if !may_touch {
             return answer;
         }
         if !pair.rests
             && !pair.sensor
-            && let Some(outlook) = outlook(self.bodies, pair.colliders, (span.from, until), pair.tolerance)
+            && let Some(outlook) = outlook(self.bodies, pair.colliders, (span.from, until), tolerance)
         {
             let instant = outlook.touch.map(|wait| span.from + wait);
             let apart = [outlook.least, outlook.end];
@@ -181,7 +183,7 @@ impl<'a> Events<'a> {
             return Answer { until, gap: Some(gap), apart, instant };
         }
         let [apart, least] = pair.least_facing(self.bodies, (span.from, until));
-        if !pair.rests && least > pair.tolerance {
+        if !pair.rests && least > tolerance {
             answer.gap = Some(Gap { separation: apart, normal: None });
             return answer;
         }

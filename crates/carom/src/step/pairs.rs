@@ -35,12 +35,19 @@ struct Entry {
     index: u32,
 }
 
+/// A pair of a body: the other body's collider, and the pair's index.
+#[derive(Clone, Copy, Debug)]
+struct Neighbor {
+    other: u32,
+    index: u32,
+}
+
 /// All pairs.
 pub(crate) struct Pairs {
     list: Blocks<Option<Pair>>,
     free: Vec<u32>,
     /// The pairs of each body, in order of their colliders' keys.
-    of_row: Vec<Vec<Entry>>,
+    of_row: Vec<Vec<Neighbor>>,
     /// Pairs that somebody has got to change since the step began.
     changed: Vec<u32>,
     /// What happens in the present step to pairs to which anything does; the first entry is what happens to the others.
@@ -77,11 +84,11 @@ impl Pairs {
         for &key in broad_phase.boxed() {
             let Some(row) = bodies.collider(key).map(|collider| collider.row) else { continue };
             let mut number = 0;
-            while let Some(&entry) = self.of_row[row].get(number) {
-                if !entry.has(key) || broad_phase.are_near(bodies, entry.colliders) {
+            while let Some(&Neighbor { other, index }) = self.of_row[row].get(number) {
+                if broad_phase.are_near(bodies, (key, other)) || !self[index as usize].has(key) {
                     number += 1;
                 } else {
-                    parted.extend(self.take_out(entry).filter(|pair| pair.rests));
+                    parted.extend(self.take_out(index).filter(|pair| pair.rests));
                 }
             }
         }
@@ -112,11 +119,13 @@ impl Pairs {
 
     /// Adds a pair that has come near; its place, if it was not known.
     pub fn add(&mut self, bodies: &Bodies, colliders: ColliderPair) -> Option<usize> {
-        let (a, b) = (bodies.collider(colliders.0)?, bodies.collider(colliders.1)?);
-        let rows = [a.row, b.row];
-        let shorter =
-            rows.into_iter().filter(|&row| row != WORLD_ROW).min_by_key(|&row| self.of_row[row].len())?;
-        if self.find(shorter, colliders).is_ok() {
+        let row = |key: u32| bodies.outline(key).row as usize;
+        // Of the rows of both bodies, each with the other one's collider.
+        let (a, b) = colliders;
+        let sides = [(row(a), b), (row(b), a)].into_iter().filter(|&(row, _)| row != WORLD_ROW);
+        let (shorter, other) = sides.clone().min_by_key(|&(row, _)| self.of_row[row].len())?;
+        let is_it = |it: &Neighbor| it.other == other && self[it.index as usize].colliders == colliders;
+        if self.of_row[shorter].iter().any(is_it) {
             return None;
         }
         let pair = Pair::new(bodies, colliders)?;
@@ -125,29 +134,23 @@ impl Pairs {
             (self.list.len() - 1) as u32
         });
         self.list[index as usize] = Some(pair);
-        let entry = Entry { colliders, index };
-        for row in rows.into_iter().filter(|&row| row != WORLD_ROW) {
-            let place = self.find(row, colliders).unwrap_or_else(|place| place);
-            self.of_row[row].put(entry);
+        for (row, other) in sides {
+            let comes_before = |it: &Neighbor| self[it.index as usize].colliders < colliders;
+            let place = self.of_row[row].partition_point(comes_before);
+            self.of_row[row].put(Neighbor { other, index });
             self.of_row[row][place..].rotate_right(1);
         }
-        self.watch(entry);
+        self.watch(index as usize);
         Some(index as usize)
     }
 
-    fn find(&self, row: usize, colliders: ColliderPair) -> Result<usize, usize> {
-        self.of_row[row].binary_search_by_key(&colliders, |entry| entry.colliders)
-    }
-
-    fn take_out(&mut self, entry: Entry) -> Option<Pair> {
-        let pair = self.list[entry.index as usize].take()?;
-        self.free.push(entry.index);
+    fn take_out(&mut self, index: u32) -> Option<Pair> {
+        let pair = self.list[index as usize].as_ref()?;
         for row in pair.rows().into_iter().filter(|&row| row != WORLD_ROW) {
-            if let Ok(place) = self.find(row, entry.colliders) {
-                self.of_row[row].remove(place);
-            }
+            self.of_row[row].retain(|it| it.index != index);
         }
-        Some(pair)
+        self.free.push(index);
+        self.list[index as usize].take()
     }
 
     /// No index reaches this.
@@ -215,24 +218,21 @@ impl Pairs {
         self.of_row[row][number].index as usize
     }
 
-    /// All pairs of the body of a row: their colliders and indices.
-    pub fn each_of_row(&self, row: usize) -> impl Iterator<Item = (ColliderPair, usize)> {
-        self.of_row[row].iter().map(|entry| (entry.colliders, entry.index as usize))
+    /// All pairs of the body of a row: the other bodies' colliders, and the pairs' indices.
+    pub fn each_of_row(&self, row: usize) -> impl Iterator<Item = (u32, usize)> {
+        self.of_row[row].iter().map(|it| (it.other, it.index as usize))
     }
 
     /// Takes out the pairs of a collider of the body of a row.
     pub fn remove(&mut self, collider: u32, row: usize) -> Vec<Pair> {
-        let entries: Vec<Entry> = if row == WORLD_ROW {
-            let all = self.list.iter().enumerate();
-            let entry = |(index, pair): (usize, &Option<Pair>)| {
-                Some(Entry { colliders: pair.as_ref()?.colliders, index: index as u32 })
-            };
-            all.filter_map(entry).filter(|entry| entry.has(collider)).collect()
+        let has = |index: u32| self.list[index as usize].as_ref().is_some_and(|pair| pair.has(collider));
+        let indices: Vec<u32> = if row == WORLD_ROW {
+            (0..self.list.len() as u32).filter(|&index| has(index)).collect()
         } else {
-            let entries = self.of_row.get(row).into_iter().flatten();
-            entries.filter(|entry| entry.has(collider)).copied().collect()
+            let indices = self.of_row.get(row).into_iter().flatten().map(|it| it.index);
+            indices.filter(|&index| has(index)).collect()
         };
-        entries.into_iter().filter_map(|entry| self.take_out(entry)).collect()
+        indices.into_iter().filter_map(|index| self.take_out(index)).collect()
     }
 
     /// The body of `row` is no more, nor are its pairs; that of the last row, `last`, gets its row.
@@ -240,17 +240,11 @@ impl Pairs {
         self.grow(last + 1);
         self.of_row.swap_remove(row);
         self.watch.remove_row(row, last);
-        for entry in self.of_row.get(row).into_iter().flatten() {
-            if let Some(pair) = &mut self.list[entry.index as usize] {
+        for it in self.of_row.get(row).into_iter().flatten() {
+            if let Some(pair) = &mut self.list[it.index as usize] {
                 pair.move_row(last, row);
             }
         }
-    }
-}
-
-impl Entry {
-    fn has(&self, collider: u32) -> bool {
-        self.colliders.0 == collider || self.colliders.1 == collider
     }
 }
 

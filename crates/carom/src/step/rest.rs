@@ -48,6 +48,7 @@ use crate::step::pool::Pool;
 use crate::step::profile::{self, Phase};
 use crowds::Crowds;
 use owner::{Manner, Owner};
+use smallvec::SmallVec;
 use std::sync::Arc;
 use work::Work;
 
@@ -68,6 +69,10 @@ pub(crate) struct Rest {
     /// Substeps so far.
     substeps: usize,
 }
+
+/// Contacts of a pair: most touch in no more manifolds.
+type Few = SmallVec<[ContactId; FEW]>;
+const FEW: usize = 4;
 
 /// A stretch of a step.
 #[derive(Clone, Copy, Debug)]
@@ -127,9 +132,17 @@ impl Rest {
         }
     }
 
+    /// The contacts of a pair.
+    fn contacts(&self, pair: &Pair) -> impl Iterator<Item = ContactId> {
+        let used = |contact: ContactId| (contact != ContactId::NONE).then_some(contact);
+        let next = move |contact: &ContactId| used(self.owners[contact.index()].next);
+        std::iter::successors(used(pair.first_contact), next)
+    }
+
     /// Lets go of the contacts of a pair.
     pub fn drop_contacts(&mut self, pair: &Pair) {
-        pair.contacts.iter().for_each(|&contact| self.release(contact));
+        let contacts: Few = self.contacts(pair).collect();
+        contacts.into_iter().for_each(|contact| self.release(contact));
     }
 
     fn release(&mut self, contact: ContactId) {
@@ -204,7 +217,7 @@ impl Rest {
         let pair = &mut pairs[index];
         self.drop_contacts(pair);
         pair.rests = false;
-        pair.contacts.clear();
+        pair.first_contact = ContactId::NONE;
         pairs.watch_over(index);
     }
 
@@ -235,7 +248,7 @@ impl Rest {
 
     /// Whether all points of a pair that rests are so near that the contacts have them all.
     pub fn is_closed(&self, pair: &Pair) -> bool {
-        pair.contacts.iter().all(|&contact| {
+        self.contacts(pair).all(|contact| {
             let numbers = self.graph.numbers(contact);
             numbers.get(field::WIDEST) <= numbers.get(field::HORIZON)
         })
@@ -260,7 +273,7 @@ impl Rest {
     fn bears_load(&self, bodies: &Bodies, pair: &Pair, law: RestLaw) -> bool {
         let movable = pair.rows().map(|row| bodies.constants[row].inverse_mass).into_iter();
         let weight = law.gravity.length() * law.substep / movable.fold(f64::MIN_POSITIVE, f64::max);
-        let pushed = pair.contacts.iter().flat_map(|&contact| {
+        let pushed = self.contacts(pair).flat_map(|contact| {
             let points = 0..self.owners[contact.index()].touched.count();
             points.map(move |point| self.graph.get(contact, field::of_point(point, field::IMPULSE)))
         });
@@ -283,7 +296,7 @@ impl Rest {
             let state = &bodies.states[row];
             (state.velocity, bodies.constants[row].angular_velocity(state))
         });
-        pair.contacts.iter().any(|&contact| {
+        self.contacts(pair).any(|contact| {
             let numbers = self.graph.numbers(contact);
             let (normal, first) = (numbers.vector(field::NORMAL), numbers.vector(field::TANGENT));
             let second = normal.cross(first);

@@ -7,6 +7,7 @@ use super::passes::{GRAIN, Spot};
 use super::wrench::Find;
 use super::{Graph, Wrench};
 use crate::bodies::WORLD_ROW;
+use crate::room::Room;
 use crate::solver::bundle::{Bundle, POINTS, field};
 use crate::solver::kernels::SweepNormals;
 use crate::solver::lanes::{LANES, Line, Row};
@@ -43,7 +44,8 @@ struct Reach {
     /// Which bundles of a colour the present pass goes through.
     is_due: Vec<bool>,
     /// Those that any has gone through, and the impulses that their points had before.
-    drawn: Vec<(Spot, [Line; POINTS])>,
+    drawn: Vec<Spot>,
+    impulses: Vec<[Line; POINTS]>,
 }
 
 impl Graph {
@@ -60,6 +62,7 @@ impl Graph {
             displaced: vec![0; displacements.len()],
             is_due: Vec::new(),
             drawn: Vec::new(),
+            impulses: Vec::new(),
         };
         for _ in 0..SWEEPS {
             for color in self.order() {
@@ -70,7 +73,7 @@ impl Graph {
                 }
             }
         }
-        for ((color, index), impulses) in reach.drawn {
+        for ((color, index), impulses) in reach.drawn.into_iter().zip(reach.impulses) {
             let contacts = self.contacts_of((color, index));
             let bundles = std::slice::from_ref(&self.colors[color].bundles[index]);
             self.machine.run(Find { bundles, contacts, rows: displacements, found: wrenches });
@@ -83,7 +86,7 @@ impl Graph {
 
     /// Finds the bundles of a colour that overlap or hold what has been displaced since they were last swept; how many there are.
     fn draw(&mut self, color: usize, reach: &mut Reach, limits: Limits) -> usize {
-        let Reach { pass, swept, displaced, is_due, drawn } = reach;
+        let Reach { pass, swept, displaced, is_due, drawn, impulses } = reach;
         is_due.clear();
         for (index, bundle) in self.colors[color].bundles.iter_mut().enumerate() {
             let last = &mut swept[color][index];
@@ -92,7 +95,8 @@ impl Graph {
             let is_new = *last == 0 && (is_moved || limits.finds_overlap(bundle));
             is_due.push(is_moved || is_new);
             if is_new {
-                drawn.push(((color, index), begin(bundle, limits)));
+                drawn.put((color, index));
+                impulses.put(begin(bundle, limits));
             }
             if is_moved || is_new {
                 *last = *pass;

@@ -30,6 +30,7 @@ impl<T> Blocks<T> {
         }
     }
 
+    #[cfg(test)]
     pub fn iter(&self) -> impl Iterator<Item = &T> {
         self.0.iter().flatten()
     }

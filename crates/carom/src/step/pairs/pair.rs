@@ -9,23 +9,17 @@ use crate::material::Surface;
 use crate::solver::graph::ContactId;
 use crate::step::broad_phase::ColliderPair;
 use facing::Facing;
-use smallvec::SmallVec;
 
 /// Two colliders whose boxes overlap.
 pub(crate) struct Pair {
     pub colliders: ColliderPair,
     rows: [u32; 2],
-    /// What turns, m: how far a turn by one radian can take a point of each collider.
-    pub spin_reach: [f64; 2],
-    /// Separation up to which the surfaces count as touching, m.
-    pub tolerance: f64,
     pub sensor: bool,
-    /// Whether there is restitution, and static friction.
+    /// Whether there is restitution.
     pub bounces: bool,
-    pub rubs: bool,
-    /// Whether the pair rests: it has contacts then.
+    /// Whether the pair rests: it has contacts then. The first one's [owner](crate::step::rest) knows the next.
     pub rests: bool,
-    pub contacts: SmallVec<[ContactId; 4]>,
+    pub first_contact: ContactId,
     /// Whether these see to all of its points, so that nobody has to ask when one strikes; and whether that is no longer so, or should
     /// be from now on.
     pub is_pressed: bool,
@@ -90,13 +84,10 @@ impl Pair {
         Some(Self {
             colliders,
             rows: [a.row, b.row].map(|row| row as u32),
-            spin_reach: [a.spin_reach, b.spin_reach],
-            tolerance: tolerance(a, b),
             sensor: a.sensor || b.sensor,
             bounces: surface.restitution > 0.0,
-            rubs: surface.static_friction > 0.0,
             rests: false,
-            contacts: SmallVec::new(),
+            first_contact: ContactId::NONE,
             is_pressed: false,
             is_outdated: false,
             clearance: clearance_of_centers(bodies, a, b),
@@ -107,10 +98,27 @@ impl Pair {
         })
     }
 
+    /// Whether it is one of these two.
+    pub(super) fn has(&self, collider: u32) -> bool {
+        self.colliders.0 == collider || self.colliders.1 == collider
+    }
+
     /// The rows of its bodies.
     #[inline]
     pub fn rows(&self) -> [usize; 2] {
         self.rows.map(|row| row as usize)
+    }
+
+    /// What turns, m: how far a turn by one radian can take a point of each collider.
+    #[inline]
+    pub fn spin_reaches(&self, bodies: &Bodies) -> [f64; 2] {
+        [self.colliders.0, self.colliders.1].map(|key| bodies.outline(key).spin_reach)
+    }
+
+    /// Separation up to which the surfaces count as touching, m.
+    #[inline]
+    pub fn tolerance(&self, bodies: &Bodies) -> f64 {
+        tolerance(bodies.outline(self.colliders.0), bodies.outline(self.colliders.1))
     }
 
     /// The slots of its bodies.
@@ -139,9 +147,10 @@ impl Pair {
     /// How far the two bodies' points have moved until `time` within the step, m, since a time of no matter.
     #[inline]
     fn path(&self, bodies: &Bodies, time: f64) -> f64 {
+        let spin_reaches = self.spin_reaches(bodies);
         let of = |side: usize| {
             let (linear, angular) = bodies.way(self.rows[side] as usize, time);
-            linear + angular * self.spin_reach[side]
+            linear + angular * spin_reaches[side]
         };
         of(0) + of(1)
     }
@@ -173,15 +182,16 @@ impl Pair {
     /// Whether the two could come within `margin` of each other, or touch, before their bodies' ways exceed `limits`
     /// (m, rad).
     #[inline]
-    fn could_meet(&self, limits: [(f64, f64); 2], margin: f64) -> bool {
-        let path = |side: usize| limits[side].0 + limits[side].1 * self.spin_reach[side];
+    fn could_meet(&self, bodies: &Bodies, limits: [(f64, f64); 2], margin: f64) -> bool {
+        let spin_reaches = self.spin_reaches(bodies);
+        let path = |side: usize| limits[side].0 + limits[side].1 * spin_reaches[side];
         let left = self.clearance - (path(0) + path(1));
-        left <= margin.max(self.tolerance) || left.is_nan()
+        left <= margin.max(self.tolerance(bodies)) || left.is_nan()
     }
 
     /// Whether somebody has to look at it in every substep, while its bodies' ways are within their `limits`.
-    pub(super) fn needs_watching(&self, limits: [(f64, f64); 2], margin: f64) -> bool {
-        if self.rests { !self.is_pressed } else { self.could_meet(limits, margin) }
+    pub(super) fn needs_watching(&self, bodies: &Bodies, limits: [(f64, f64); 2], margin: f64) -> bool {
+        if self.rests { !self.is_pressed } else { self.could_meet(bodies, limits, margin) }
     }
 
     /// A lower bound of the separation until `time`, m, if the two have this gap at an earlier time.

@@ -1,7 +1,7 @@
 //! Pairs against a search of all colliders, while bodies fly, come, go and are meddled with.
 
 use super::watch::merge;
-use super::{Entry, Pair, Pairs};
+use super::{Entry, Neighbor, Pair, Pairs};
 use crate::bodies::{Bodies, ColliderRow, WORLD_ROW};
 use crate::collide::separation;
 use crate::filter::{Accepts, Filter, Groups};
@@ -18,14 +18,13 @@ impl Pairs {
     fn validate(&self, bodies: &Bodies) {
         let mut listed = vec![0; self.list.len()];
         for (row, entries) in self.of_row.iter().enumerate() {
-            assert!(entries.is_sorted_by(|a, b| a.colliders < b.colliders), "pairs of {row} in order");
-            for entry in entries {
-                let pair = self.list[entry.index as usize].as_ref().expect("a pair");
-                assert!(
-                    pair.colliders == entry.colliders && pair.rows().contains(&row),
-                    "{entry:?} of {row}"
-                );
-                listed[entry.index as usize] += 1;
+            let colliders = |it: &Neighbor| self[it.index as usize].colliders;
+            assert!(entries.is_sorted_by(|a, b| colliders(a) < colliders(b)), "pairs of {row} in order");
+            for it in entries {
+                let pair = &self[it.index as usize];
+                assert!(pair.rows().contains(&row) && pair.has(it.other), "{:?} of {row}", colliders(it));
+                assert_ne!(bodies.collider(it.other).expect("it is there").row, row, "{it:?} of {row}");
+                listed[it.index as usize] += 1;
             }
         }
         for (index, pair) in self.list.iter().enumerate() {
@@ -93,7 +92,7 @@ fn validate(world: &World) {
                 0 => movable(one) || movable(other),
                 _ => sensors == 1 && !fixed,
             };
-            if one.slot == other.slot || !meet || !one.filter.allows(&other.filter) {
+            if one.slot == other.slot || !meet || !one.allows(other) {
                 continue;
             }
             let colliders = if one.slot < other.slot { (key, other_key) } else { (other_key, key) };

@@ -66,7 +66,7 @@ impl Pairs {
             let Some(pair) = there.filter(|it| it.colliders == entry.colliders && it.is_watched) else {
                 return false;
             };
-            pair.is_watched = pair.needs_watching(pair.rows().map(|row| limits[row]), margin);
+            pair.is_watched = pair.needs_watching(bodies, pair.rows().map(|row| limits[row]), margin);
             pair.is_watched
         });
     }
@@ -85,11 +85,11 @@ impl Pairs {
             let ahead = STEPS * time;
             *limit = (way.0 + (SHARE * size).max(ahead * linear), way.1 + SHARE.max(ahead * angular));
             for number in 0..self.of_row[row].len() {
-                let entry = self.of_row[row][number];
-                let Some(pair) = &self.list[entry.index as usize] else { continue };
+                let index = self.of_row(row, number);
+                let pair = &self[index];
                 let limits = pair.rows().map(|row| self.watch.limits[row]);
-                if pair.needs_watching(limits, self.watch.margin) {
-                    self.watch(entry);
+                if pair.needs_watching(bodies, limits, self.watch.margin) {
+                    self.watch(index);
                 }
             }
         }
@@ -107,15 +107,14 @@ impl Pairs {
     pub fn watch_over(&mut self, index: usize) {
         let pair = &self[index];
         if !(pair.rests && pair.is_pressed) {
-            let colliders = pair.colliders;
-            self.watch(Entry { colliders, index: index as u32 });
+            self.watch(index);
         }
     }
 
-    pub(super) fn watch(&mut self, entry: Entry) {
-        let Some(pair) = &mut self.list[entry.index as usize] else { return };
+    pub(super) fn watch(&mut self, index: usize) {
+        let Some(pair) = &mut self.list[index] else { return };
         if !std::mem::replace(&mut pair.is_watched, true) {
-            self.watch.joining.push(entry);
+            self.watch.joining.push(Entry { colliders: pair.colliders, index: index as u32 });
         }
     }
 

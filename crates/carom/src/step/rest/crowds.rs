@@ -80,7 +80,8 @@ fn approach(bodies: &Bodies, pair: &Pair, time: f64) -> f64 {
     let [a, b] = pair.rows();
     let velocity = bodies.states[b].velocity - bodies.states[a].velocity;
     let acceleration = bodies.influences[b].acceleration - bodies.influences[a].acceleration;
-    let turn = |side: usize| bodies.paces[pair.rows()[side]].1 * pair.spin_reach[side];
+    let spin_reaches = pair.spin_reaches(bodies);
+    let turn = |side: usize| bodies.paces[pair.rows()[side]].1 * spin_reaches[side];
     time * (velocity.length() + turn(0) + turn(1) + 0.5 * time * acceleration.length())
 }
 
@@ -137,7 +138,7 @@ mod tests {
                         rest.graph.get(contact, field::of_point(point, field::IMPULSE)) > 0.0
                     };
                     let is_pressed =
-                        pair.contacts.iter().any(|&contact| (0..4).any(|point| pushes(point, contact)));
+                        rest.contacts(pair).any(|contact| (0..4).any(|point| pushes(point, contact)));
                     let is_slow =
                         pair.rows().into_iter().all(|row| bodies.states[row].velocity.length() < 1e-3);
                     if is_pressed && is_slow {
@@ -174,7 +175,7 @@ mod tests {
             world.step_validated(STEP);
             let (rest, pairs) = (&world.rest, &world.pairs);
             let lowest = rest.resting.iter().map(|&index| &pairs[index]).find(|pair| pair.rows()[0] == 0);
-            let contacts = &lowest.expect("it stands on the ground").contacts;
+            let contacts: Vec<_> = rest.contacts(lowest.expect("it stands on the ground")).collect();
             let now: Vec<[f32; 3]> = contacts
                 .iter()
                 .map(|&contact| [0, 1, 2].map(|axis| rest.graph.get(contact, field::DRIFTED + axis)))

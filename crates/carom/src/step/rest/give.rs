@@ -5,7 +5,7 @@
 //! path that it gets. Where a collision takes it off that path, the force goes on acting at the place where it was: see
 //! [`Plan`].
 
-use super::hold::is_free;
+use super::hold::{gain, is_free};
 use super::work::{Change, Work};
 use super::{Rest, Span};
 use crate::bodies::{Bodies, WORLD_ROW};
@@ -41,10 +41,10 @@ struct Held {
 }
 
 impl Held {
-    fn of(work: &Work, row: usize) -> Self {
+    fn of(bodies: &Bodies, work: &Work, row: usize, at: (RestLaw, f64)) -> Self {
         Self {
             row,
-            gain: work.gains[row],
+            gain: gain(bodies, row, at),
             steady: work.is_steady[row] || !work.is_pushed[row],
             rough: work.rough_pushes[row],
         }
@@ -59,7 +59,7 @@ impl Rest {
         for &row in &work.rows {
             work.centers[row] = bodies.states[row].position;
             if is_free(bodies, row) {
-                let body = Held::of(work, row);
+                let body = Held::of(bodies, work, row, (law, substep));
                 let change = self.push_center(bodies, &body, work.impulses[row], (law, substep));
                 work.centers[row] = mean_place(bodies, &body, change.velocity, substep);
                 work.changes[row] = change;
@@ -70,15 +70,15 @@ impl Rest {
             if !is_free(bodies, row) {
                 continue;
             }
-            let (body, mut change) = (Held::of(work, row), work.changes[row]);
+            let (body, change) = (Held::of(bodies, work, row, (law, substep)), work.changes[row]);
             let rotation = bodies.states[row].rotation;
-            change.momentum = body.gain[1] + bodies.constants[row].turning_part(rotation, work.turns[row]);
-            if change.captured {
-                let turn = capture_spin(bodies, row, &mut change, law);
-                let impulse = change.captured_velocity * bodies.constants[row].mass();
-                captured(bodies, row, [impulse, turn]);
+            let mut momentum = body.gain[1] + bodies.constants[row].turning_part(rotation, work.turns[row]);
+            if let Some(velocity) = change.captured {
+                let turn = capture_spin(bodies, row, momentum, law);
+                momentum += turn;
+                captured(bodies, row, [velocity * bodies.constants[row].mass(), turn]);
             }
-            follow(bodies, &body, &change, span);
+            follow(bodies, &body, [change.velocity, momentum], span);
             set_pace(bodies, row, span.until);
         }
         if let Some(journal) = &mut bodies.journal {
@@ -118,11 +118,11 @@ impl Rest {
         let pull = body.gain[0].length();
         let stays = self.goes_nowhere(bodies, body.row, (change.velocity.length(), pull, substep));
         let is_carried = push.length().min(body.rough * inverse_mass) > SUPPORTED * pull;
-        change.captured = is_carried && stays;
-        if change.captured {
+        if is_carried && stays {
             let velocity = bodies.states[body.row].velocity + change.velocity;
-            change.captured_velocity = -captured_share(velocity.length(), law) * velocity;
-            change.velocity += change.captured_velocity;
+            let captured = -captured_share(velocity.length(), law) * velocity;
+            change.velocity += captured;
+            change.captured = Some(captured);
         }
         change
     }
@@ -147,14 +147,12 @@ fn captured_share(speed: f64, law: RestLaw) -> f64 {
     RESISTANCE * law.substep * slowness.max(0.0)
 }
 
-/// Rest capture of the spin; the angular momentum that this gives, N·m·s.
-fn capture_spin(bodies: &Bodies, row: usize, change: &mut Change, law: RestLaw) -> DVec3 {
+/// Rest capture of the spin of a body whose angular momentum changes by this much; the angular momentum that it gives, N·m·s.
+fn capture_spin(bodies: &Bodies, row: usize, change: DVec3, law: RestLaw) -> DVec3 {
     let (state, constants) = (&bodies.states[row], &bodies.constants[row]);
-    let momentum = state.angular_momentum + change.momentum;
+    let momentum = state.angular_momentum + change;
     let spin = constants.free_spin_speed(state.rotation, momentum);
-    let turn = -captured_share(spin * bodies.grains[row], law) * momentum;
-    change.momentum += turn;
-    turn
+    -captured_share(spin * bodies.grains[row], law) * momentum
 }
 
 /// Where a body's centre is in the mean while the impulses act that give it `change` (m/s).
@@ -168,21 +166,20 @@ fn mean_place(bodies: &Bodies, body: &Held, change: DVec3, substep: f64) -> DVec
     }
 }
 
-/// Sets a body on its path for a substep in which it gets this change: a parabola where the forces
+/// Sets a body on its path for a substep in which its velocity (m/s) and angular momentum (N·m·s) change so: a parabola where the forces
 /// persist, so that what slides or rolls gets the distance right; else with the new velocity from the start, as what meets
 /// an obstacle must not go on into it for half a substep.
-fn follow(bodies: &mut Bodies, body: &Held, change: &Change, span: Span) {
+fn follow(bodies: &mut Bodies, body: &Held, [velocity, momentum]: [DVec3; 2], span: Span) {
     let (row, substep) = (body.row, span.until - span.from);
     let before = bodies.states[row];
     let state = &mut bodies.states[row];
     if body.steady {
-        let force = (change.velocity - body.gain[0]) / (substep * bodies.constants[row].inverse_mass);
+        let force = (velocity - body.gain[0]) / (substep * bodies.constants[row].inverse_mass);
         bodies.plans[row] = Plan::of(force, state, (span.from, span.until));
-        bodies.influences[row] =
-            Influence { acceleration: change.velocity / substep, torque: change.momentum / substep };
+        bodies.influences[row] = Influence { acceleration: velocity / substep, torque: momentum / substep };
     } else {
-        state.velocity += change.velocity;
-        state.angular_momentum += change.momentum;
+        state.velocity += velocity;
+        state.angular_momentum += momentum;
         bodies.plans[row] = None;
         bodies.influences[row] = Influence::default();
     }

@@ -77,7 +77,9 @@ impl Rest {
         let substep = span.until - span.from;
         work.begin(bodies.states.len());
         for &row in &work.rows {
-            work.gains[row] = self.gain(bodies, row, (law, substep));
+            let [velocity, momentum] = gain(bodies, row, (law, substep));
+            let spin = bodies.constants[row].free_spin(bodies.states[row].rotation, momentum);
+            self.rows.read_velocity(bodies, row, [velocity, spin]);
         }
         let gravity = law.gravity.length() * substep;
         let limits = [law.contact_margin(), LIVELY * gravity];
@@ -90,7 +92,8 @@ impl Rest {
         for &row in &work.rows {
             let before = [&work.unpushed[row], &work.persisting[row]];
             let sudden = self.sudden_change(row, before, bodies.grains[row]);
-            let little = STEADY * STEADY * work.gains[row][0].length_squared();
+            let [gain, _] = gain(bodies, row, (law, substep));
+            let little = STEADY * STEADY * gain.length_squared();
             work.is_steady[row] = sudden <= little || !is_free(bodies, row);
         }
         self.graph.in_whole_islands(&mut work.is_steady);
@@ -125,20 +128,6 @@ impl Rest {
         }
     }
 
-    /// Reads the velocity that a body would have at the end of the substep if no contact pushed; what of it, and of its angular
-    /// momentum, is gained in this substep (m/s, N·m·s).
-    fn gain(&mut self, bodies: &Bodies, row: usize, (law, substep): (RestLaw, f64)) -> [DVec3; 2] {
-        let free = if bodies.is_asleep(row) {
-            Influence::default()
-        } else {
-            free_influence(bodies, row, law.gravity)
-        };
-        let [velocity, momentum] = [free.acceleration * substep, free.torque * substep];
-        let spin = bodies.constants[row].free_spin(bodies.states[row].rotation, momentum);
-        self.rows.read_velocity(bodies, row, [velocity, spin]);
-        [velocity, momentum]
-    }
-
     /// Finds impulses with which all velocities agree; `gravity` is what it does in a substep, m/s.
     fn solve(&mut self, bodies: &Bodies, gravity: f64) {
         let _phase = profile::phase(Phase::Solve);
@@ -160,6 +149,14 @@ impl Rest {
             })
         });
     }
+}
+
+/// Velocity (m/s) and angular momentum (N·m·s) that gravity and the user's forces give to a body in a substep. Told anew whenever it is
+/// asked for: that takes no longer than to keep it for each body.
+pub(super) fn gain(bodies: &Bodies, row: usize, (law, substep): (RestLaw, f64)) -> [DVec3; 2] {
+    let free =
+        if bodies.is_asleep(row) { Influence::default() } else { free_influence(bodies, row, law.gravity) };
+    [free.acceleration * substep, free.torque * substep]
 }
 
 /// Whether impulses change how the body of a row moves.

@@ -3,6 +3,7 @@
 use crate::bodies::Bodies;
 use crate::collide::{ContactPoint, Manifold};
 use crate::solver::bundle::POINTS;
+use crate::solver::graph::ContactId;
 use crate::step::pairs::Pair;
 
 /// The pair that a contact belongs to, and what touches.
@@ -13,17 +14,20 @@ pub(super) struct Owner {
     /// Whether its bodies have no other contact with each other.
     pub is_alone: bool,
     pub touched: Touched,
+    /// The pair's next contact, if it has several.
+    pub next: ContactId,
 }
 
 impl Owner {
     /// Of a contact that is no more.
-    pub const NOBODY: Owner = Owner { pair: u32::MAX, is_alone: false, touched: Touched::NOTHING };
+    pub const NOBODY: Owner =
+        Owner { pair: u32::MAX, is_alone: false, touched: Touched::NOTHING, next: ContactId::NONE };
 
     /// The owner of the contacts of a pair, of which it has so many.
     pub fn of(bodies: &Bodies, pair: &Pair, index: usize, contacts: usize) -> Self {
         let is_single = |slot: u32| bodies.record(slot).is_some_and(|record| record.colliders.len() == 1);
         let is_alone = contacts == 1 && pair.slots(bodies).into_iter().all(is_single);
-        Self { pair: index as u32, is_alone, touched: Touched::NOTHING }
+        Self { pair: index as u32, is_alone, ..Self::NOBODY }
     }
 }
 

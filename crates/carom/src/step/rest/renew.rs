@@ -7,7 +7,7 @@
 use super::crowds::reach_in_crowd;
 use super::owner::{Manner, Owner, Touched};
 use super::work::fill;
-use super::{Rest, Span, horizon};
+use super::{FEW, Few, Rest, Span, horizon};
 use crate::bodies::{Bodies, ColliderRow};
 use crate::impacts::time_of_impact::{Approach, RestLaw};
 use crate::math::DMat3;
@@ -39,13 +39,11 @@ const LOOKS: usize = 16;
 /// So many are looked at before their contacts are put in place: what waits for that has to be kept meanwhile.
 const AT_ONCE: usize = 512;
 
-/// Most pairs touch in no more manifolds.
-const FEW: usize = 4;
-
 /// What a pair's contacts are to be.
 struct View {
     /// What touches in each, and its numbers.
     contacts: Vec<(Touched, Lane)>,
+    manner: Manner,
     /// Whether they see to all of its points.
     is_pressed: bool,
 }
@@ -75,9 +73,10 @@ impl Rest {
         let reach = if is_pressed {
             margin + reach_in_crowd(bodies, pair, law.step - span.from)
         } else {
+            let spin_reaches = pair.spin_reaches(bodies);
             let way = |side: usize| {
                 let (linear, angular) = bodies.paces[pair.rows()[side]];
-                linear + angular * pair.spin_reach[side]
+                linear + angular * spin_reaches[side]
             };
             let ahead = ((way(0) + way(1)) * law.substep).min(0.2 * grain);
             margin + 0.01 * grain + ahead
@@ -89,8 +88,9 @@ impl Rest {
         let terms =
             Terms { surface: pair.surface(bodies), margin, horizon: horizon(pair, grain, law), is_pressed };
         let centers = [bodies.center_pose(a).position, bodies.center_pose(b).position];
+        let old: Few = self.contacts(pair).collect();
         let touched: SmallVec<[Touched; FEW]> = manifolds.iter().map(Touched::of).collect();
-        let legacy = self.legacy(&pair.contacts, centers, &manifolds, &touched);
+        let legacy = self.legacy(&old, centers, &manifolds, &touched);
         let mut sides = [self.side(bodies, a), self.side(bodies, b)];
         let pose = |collider: &ColliderRow| bodies.center_pose(collider).then_local(&collider.local);
         let poses = [pose(a), pose(b)];
@@ -107,7 +107,8 @@ impl Rest {
             let remembered = legacy.left_to(number, manifold, contact, margin);
             fill_lane(lane, (normal, points), &sides, &terms, &remembered);
         }
-        Some(View { contacts, is_pressed })
+        let manner = Manner { bounces: pair.bounces, rubs: terms.surface.static_friction > 0.0 };
+        Some(View { contacts, manner, is_pressed })
     }
 
     /// A body as contacts see it that touch one of its colliders where that is not round.
@@ -133,29 +134,34 @@ impl Rest {
         let movable = pair.rows().map(|row| bodies.constants[row].is_movable());
         (pair.is_pressed, pair.is_outdated) = (view.is_pressed, false);
         let owner = Owner::of(bodies, pair, index, view.contacts.len());
-        for (number, (touched, lane)) in view.contacts.iter().enumerate() {
-            let contact = match pair.contacts.get(number) {
-                Some(&contact) => {
-                    self.graph.write(contact, lane);
-                    contact
-                }
-                None => {
-                    pair.rows().into_iter().for_each(|row| self.rows.hold(row));
-                    let contact = self.graph.insert(rows, movable, lane);
-                    pair.contacts.push(contact);
-                    contact
-                }
+        let mut old = std::mem::replace(&mut pair.first_contact, ContactId::NONE);
+        let mut last = ContactId::NONE;
+        for (touched, lane) in &view.contacts {
+            let contact = if old == ContactId::NONE {
+                pair.rows().into_iter().for_each(|row| self.rows.hold(row));
+                self.graph.insert(rows, movable, lane)
+            } else {
+                self.graph.write(old, lane);
+                let next = self.owners[old.index()].next;
+                std::mem::replace(&mut old, next)
             };
             let count = self.owners.len().max(contact.index() + 1);
             self.owners.lengthen(count, Owner::NOBODY);
             self.owners[contact.index()] = Owner { touched: *touched, ..owner };
             self.manners.lengthen(count, Manner::default());
-            self.manners[contact.index()] = Manner { bounces: pair.bounces, rubs: pair.rubs };
+            self.manners[contact.index()] = view.manner;
+            if last == ContactId::NONE {
+                pair.first_contact = contact;
+            } else {
+                self.owners[last.index()].next = contact;
+            }
+            last = contact;
         }
-        for contact in pair.contacts.drain(view.contacts.len()..) {
-            self.release(contact);
+        while old != ContactId::NONE {
+            let next = self.owners[old.index()].next;
+            self.release(std::mem::replace(&mut old, next));
         }
-        pair.rests = !pair.contacts.is_empty();
+        pair.rests = pair.first_contact != ContactId::NONE;
         pairs.watch_over(index);
     }
 
@@ -192,12 +198,12 @@ impl Rest {
             noted.into_iter().map(|contact| self.owners[contact.index()].pair as usize).collect();
         noted.sort_by_key(|&index| pairs[index].colliders);
         noted.dedup();
-        let has_left = |&contact: &ContactId| self.graph.has_left(contact);
+        let has_left = |contact: ContactId| self.graph.has_left(contact);
         let (gone, mut strayed): (Vec<usize>, Vec<usize>) =
-            noted.into_iter().partition(|&index| pairs[index].contacts.iter().all(has_left));
+            noted.into_iter().partition(|&index| self.contacts(&pairs[index]).all(has_left));
         // One contact of several may have left for good, as a side of a mesh does.
-        let has_strayed = |&contact: &ContactId| self.graph.get(contact, field::STRAY) > 0.0;
-        strayed.retain(|&index| pairs[index].contacts.iter().any(has_strayed));
+        let has_strayed = |contact: ContactId| self.graph.get(contact, field::STRAY) > 0.0;
+        strayed.retain(|&index| self.contacts(&pairs[index]).any(has_strayed));
         gone.into_iter().for_each(|index| self.end(pairs, index));
         self.renew_all(bodies, pairs, strayed, at);
         self.resting.retain(|&index| pairs[index].rests);

@@ -3,6 +3,7 @@
 use super::Rest;
 use crate::World;
 use crate::bodies::{Bodies, WORLD_ROW};
+use crate::solver::graph::ContactId;
 use crate::step::pairs::Pairs;
 
 impl Rest {
@@ -12,8 +13,13 @@ impl Rest {
         self.graph.validate(is_movable);
         let mut contacts = 0;
         for pair in pairs.iter() {
-            assert_eq!(pair.rests, !pair.contacts.is_empty(), "{:?} rests without contacts", pair.colliders);
-            for &contact in &pair.contacts {
+            assert_eq!(
+                pair.rests,
+                pair.first_contact != ContactId::NONE,
+                "{:?} rests without contacts",
+                pair.colliders
+            );
+            for contact in self.contacts(pair) {
                 let rows = pair.rows().map(|row| row as u32);
                 assert_eq!(self.graph.rows(contact), rows, "rows of {:?}", pair.colliders);
                 contacts += 1;

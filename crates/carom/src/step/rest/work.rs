@@ -16,8 +16,6 @@ pub(super) struct Work {
     /// Velocities with no contact pushing, and with those that go on pushing as before.
     pub unpushed: Vec<Row>,
     pub persisting: Vec<Row>,
-    /// Velocity (m/s) and angular momentum (N·m·s) that gravity and the user's forces give.
-    pub gains: Vec<[DVec3; 2]>,
     /// How much contacts with friction push the body, without directions, N·s.
     pub rough_pushes: Vec<f64>,
     /// Whether the forces on it persist.
@@ -31,19 +29,14 @@ pub(super) struct Work {
     pub turns: Vec<DVec3>,
     pub centers: Vec<DVec3>,
     pub changes: Vec<Change>,
-    /// How far overlaps push it out at the end of a step, m.
-    pub moves: Vec<DVec3>,
 }
 
-/// What a substep does to a body.
+/// What a substep does to a body's velocity, m/s.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Change {
-    /// Of velocity (m/s) and angular momentum (N·m·s).
     pub velocity: DVec3,
-    pub momentum: DVec3,
-    /// Whether rest capture takes from it, and how much of the velocity that is, m/s.
-    pub captured: bool,
-    pub captured_velocity: DVec3,
+    /// What of that rest capture does, if it takes from the body.
+    pub captured: Option<DVec3>,
 }
 
 impl Work {
@@ -54,7 +47,6 @@ impl Work {
         fill(&mut self.is_pushed, count, false);
         fill(&mut self.impulses, count, DVec3::ZERO);
         fill(&mut self.turns, count, DVec3::ZERO);
-        self.gains.lengthen(count, [DVec3::ZERO; 2]);
         self.centers.lengthen(count, DVec3::ZERO);
         self.changes.lengthen(count, Change::default());
     }

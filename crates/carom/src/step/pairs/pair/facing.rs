@@ -52,7 +52,8 @@ impl Facing {
 
 /// How far points of the two have turned with their bodies by a time within the step, m, since a time of no matter.
 fn turned(pair: &Pair, bodies: &Bodies, time: f64) -> f64 {
-    let of = |side: usize| bodies.way(pair.rows()[side], time).1 * pair.spin_reach[side];
+    let spin_reaches = pair.spin_reaches(bodies);
+    let of = |side: usize| bodies.way(pair.rows()[side], time).1 * spin_reaches[side];
     of(0) + of(1)
 }
 
