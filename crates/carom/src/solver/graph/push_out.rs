@@ -53,7 +53,9 @@ impl Graph {
     /// masses, in place of impulses (kg·m).
     pub fn push_out(&mut self, displacements: &mut [Row], limits: Limits, wrenches: &mut Vec<Wrench>) {
         wrenches.clear();
-        if !self.colors.iter().flat_map(|color| &color.bundles).any(|bundle| limits.finds_overlap(bundle)) {
+        let bundles = self.colors.iter().flat_map(|color| &color.bundles);
+        let overlapping = bundles.filter(|bundle| limits.finds_overlap(bundle)).count();
+        if overlapping == 0 {
             return;
         }
         let mut reach = Reach {
@@ -61,8 +63,8 @@ impl Graph {
             swept: self.colors.iter().map(|color| vec![0; color.bundles.len()]).collect(),
             displaced: vec![0; displacements.len()],
             is_due: Vec::new(),
-            drawn: Vec::new(),
-            impulses: Vec::new(),
+            drawn: Vec::with_capacity(overlapping),
+            impulses: Vec::with_capacity(overlapping),
         };
         for _ in 0..SWEEPS {
             for color in self.order() {
