@@ -1,7 +1,7 @@
 //! Room in the lists that a large world is made of.
 //!
 //! A `Vec` that is full takes twice the room that it had: in the end up to half of it is empty. What has an entry for each body, pair or
-//! contact takes an eighth more instead.
+//! contact takes a sixteenth more instead.
 
 /// Lists that take little more room than they need.
 pub(crate) trait Room<T> {
@@ -15,7 +15,7 @@ pub(crate) trait Room<T> {
 }
 
 /// A list that is full gets room for this share of its entries, and for so many at least.
-const SHARE: usize = 8;
+const SHARE: usize = 16;
 const LEAST: usize = 4;
 
 impl<T> Room<T> for Vec<T> {
@@ -51,7 +51,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn lists_grow_by_an_eighth_and_hold_what_was_put_there() {
+    fn lists_grow_by_a_sixteenth_and_hold_what_was_put_there() {
         let (mut one, mut other) = (Vec::new(), Vec::new());
         for number in 0..10_000_usize {
             one.put(number);
