@@ -18,14 +18,12 @@
 //! ledger/stock.rs      what a body has
 //! ledger/posts.rs      the causes, and their sums
 //! ledger/journal.rs    what is noted while a step goes on
-//! ledger/axes.rs       where bodies' principal axes point
 //! ledger/flights.rs    who books what flights do: gravity, forces, damping, turning
 //! ledger/contacts.rs   contacts that rest, rest capture, overlaps
 //! ledger/impacts.rs    collisions
 //! ledger/worst.rs      which step and which body fitted worst
 //! ```
 
-mod axes;
 pub(crate) mod contacts;
 pub(crate) mod flights;
 pub(crate) mod impacts;

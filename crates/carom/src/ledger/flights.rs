@@ -13,6 +13,9 @@ use crate::bodies::Bodies;
 use crate::flight::{Constants, Influence, RigidState, mean_center};
 use crate::math::{DVec3, decay_fractions};
 
+/// Angle (rad) of a plain flight's turn up to which its energies are told to the first order: off by the square of it.
+const SLIGHT_TURN: f64 = 1e-5;
+
 /// A stretch of a body's path.
 struct Flight<'a> {
     before: &'a RigidState,
@@ -35,13 +38,12 @@ pub(crate) fn flown(bodies: &mut Bodies, row: usize, before: &RigidState, time: 
     if !constants.is_movable() {
         return;
     }
-    let path = journal.paths[row];
+    let path = journal.holds[row].path;
     if path == Path::Free && only_falls(constants, influence, journal.gravity) {
-        journal.falls[row].add(mean_center(before, constants, influence, time), time);
+        journal.tallies[row].fall.add(mean_center(before, constants, influence, time), time);
         let (momentum, arrival) = (before.angular_momentum, bodies.states[row].rotation);
         if !constants.is_isotropic() && momentum != DVec3::ZERO {
-            let start = journal.axes[row].spin_energy(constants, before.rotation, momentum);
-            let end = journal.axes[row].spin_energy(constants, arrival, momentum);
+            let [start, end] = [before.rotation, arrival].map(|it| constants.spin_energy(it, momentum));
             journal.turned(row, constants, end - start);
         }
         return;
@@ -63,10 +65,9 @@ pub(crate) fn flown(bodies: &mut Bodies, row: usize, before: &RigidState, time: 
             Path::Kicked => false,
         },
     };
-    if flight.is_plain() {
-        flight.book_plain(journal, row);
-    } else {
-        flight.book(journal, row);
+    match flight.plain_turn() {
+        Some(turn) => flight.book_plain(journal, row, turn),
+        None => flight.book(journal, row),
     }
 }
 
@@ -76,7 +77,7 @@ pub(crate) fn flown(bodies: &mut Bodies, row: usize, before: &RigidState, time: 
 pub(crate) fn minds_drifting(bodies: &Bodies, row: usize) -> bool {
     let Some(journal) = bodies.journal.as_deref() else { return false };
     journal.gravity != DVec3::ZERO
-        || journal.paths[row] != Path::Free
+        || journal.holds[row].path != Path::Free
         || bodies.forces.of(row) != (DVec3::ZERO, DVec3::ZERO)
 }
 
@@ -103,12 +104,29 @@ pub(super) fn weight(constants: &Constants, gravity: DVec3) -> DVec3 {
 }
 
 impl Flight<'_> {
-    /// Whether contacts and gravity alone act on it, evenly, and it turns about all axes alike: so much of what rests.
+    /// How far (rad) it turns where contacts and gravity alone act on it, evenly, and it turns about all axes alike, or but slightly: so
+    /// most of what rests.
+    #[inline]
+    fn plain_turn(&self) -> Option<DVec3> {
+        let (constants, time) = (self.constants, self.time);
+        if !self.is_plain() {
+            return None;
+        }
+        let kick = 0.5 * time * self.influence.torque;
+        let momentum = self.before.angular_momentum + kick;
+        if constants.is_isotropic() {
+            // However it is turned, the mean of its angular velocities is that of the mean of its angular momenta.
+            return Some(constants.free_spin(self.before.rotation, momentum) * time);
+        }
+        let middle = (self.before.rotation + self.after.rotation) * 0.5;
+        let turn = constants.turn_of_kicks(middle, [momentum, kick], time);
+        (turn.length_squared() <= SLIGHT_TURN * SLIGHT_TURN && constants.is_regular()).then_some(turn)
+    }
+
     #[inline]
     fn is_plain(&self) -> bool {
         let constants = self.constants;
         self.path == Path::Steady
-            && constants.is_isotropic()
             && constants.inverse_mass > 0.0
             && constants.linear_damping == 0.0
             && constants.angular_damping == 0.0
@@ -116,16 +134,14 @@ impl Flight<'_> {
             && self.torque == DVec3::ZERO
     }
 
-    /// The same as [`Flight::book`] does where that is all: how long gravity acts and where, and the passage along which contacts work. However
-    /// it is turned, the mean of its angular velocities is that of the mean of its angular momenta.
+    /// The same as [`Flight::book`] does where that is all: how long gravity acts and where, and the passage along which contacts work.
     #[inline]
-    fn book_plain(&self, journal: &mut Journal, row: usize) {
-        let (before, after, constants, time) = (self.before, self.after, self.constants, self.time);
-        journal.falls[row].add(mean_center(before, constants, self.influence, time), time);
-        let passage = &mut journal.passages[row];
-        passage.way += after.position - before.position;
-        let momentum = 0.5 * (before.angular_momentum + after.angular_momentum);
-        passage.turn += constants.free_spin(before.rotation, momentum) * time;
+    fn book_plain(&self, journal: &mut Journal, row: usize, turn: DVec3) {
+        let mean = mean_center(self.before, self.constants, self.influence, self.time);
+        journal.tallies[row].fall.add(mean, self.time);
+        let passage = &mut journal.holds[row].passage;
+        passage.way += self.after.position - self.before.position;
+        passage.turn += turn;
     }
 
     #[inline(never)]
@@ -142,11 +158,11 @@ impl Flight<'_> {
         let (posts, tally) = (&mut journal.posts, &mut journal.tallies[row]);
         let way = self.after.position - self.before.position;
         if self.path == Path::Steady {
-            journal.passages[row].way += way;
+            journal.holds[row].passage.way += way;
         }
         if self.acts {
             let mean = mean_center(self.before, self.constants, self.influence, self.time);
-            journal.falls[row].add(mean, self.time);
+            tally.fall.add(mean, self.time);
             if self.push != DVec3::ZERO {
                 let (impulse, work) = (self.push * self.time, self.push.dot(way));
                 posts.external.add(impulse, mean.cross(impulse));
@@ -205,12 +221,12 @@ impl Flight<'_> {
         } else {
             1.0
         };
-        let departure = journal.axes[row].at(constants, before.rotation);
+        let departure = &constants.principal_axes(before.rotation);
         let first = constants.spin_about(departure, before.angular_momentum + momentum);
-        let start = constants.spin_energy(departure, momentum);
-        let arrival = journal.axes[row].at(constants, after.rotation);
+        let start = constants.spin_energy_about(departure, momentum);
+        let arrival = &constants.principal_axes(after.rotation);
         let last = constants.spin_about(arrival, momentum * left + after.angular_momentum);
-        let energy = constants.spin_energy(arrival, momentum);
+        let energy = constants.spin_energy_about(arrival, momentum);
         if !constants.is_isotropic() {
             journal.turned(row, constants, energy - start);
         }
@@ -223,11 +239,10 @@ impl Flight<'_> {
         }
 
         let by_user = self.acts && self.torque != DVec3::ZERO;
-        if self.path != Path::Steady && !by_user {
-            return;
-        }
         let turn = (first + last) * (0.25 * time);
-        journal.passages[row].turn += turn;
+        if self.path == Path::Steady {
+            journal.holds[row].passage.turn += turn;
+        }
         if by_user {
             let impulse = self.torque * time;
             posts.external.angular += impulse;
@@ -270,14 +285,14 @@ pub(crate) fn set_out(bodies: &mut Bodies, row: usize, before: &RigidState, (tim
         journal.rotations[row] = before.rotation;
     }
     if steady {
-        journal.paths[row] = Path::Steady;
+        journal.holds[row].path = Path::Steady;
         return;
     }
     let way = (before.velocity + after.velocity) * (0.5 * time);
     let momentum = 0.5 * (before.angular_momentum + after.angular_momentum);
-    let turn = journal.axes[row].spin(constants, before.rotation, momentum) * time;
-    journal.paths[row] = Path::Kicked;
-    journal.passages[row] = Passage { way, turn };
+    let turn = constants.free_spin(before.rotation, momentum) * time;
+    let hold = &mut journal.holds[row];
+    (hold.path, hold.passage) = (Path::Kicked, Passage { way, turn });
 
     let (posts, tally) = (&mut journal.posts, &mut journal.tallies[row]);
     let (mut push, torque) = bodies.forces.of(row);
@@ -285,7 +300,7 @@ pub(crate) fn set_out(bodies: &mut Bodies, row: usize, before: &RigidState, (tim
         push = DVec3::ZERO;
     }
     let pull = weight(constants, journal.gravity);
-    journal.falls[row].add(before.position, time);
+    tally.fall.add(before.position, time);
     posts.integration += pull.dot(way);
     tally.get_artefact(INTEGRATION, pull.dot(way));
     if push != DVec3::ZERO || torque != DVec3::ZERO {

@@ -124,6 +124,11 @@ impl Rest {
         }
     }
 
+    /// Tells the ledger what contacts have exerted in the last substep.
+    pub fn settle(&mut self, bodies: &mut Bodies) {
+        self.work.settle(bodies);
+    }
+
     /// Lets go of the contacts of a pair.
     pub fn drop_contacts(&mut self, pair: &Pair) {
         pair.contacts.iter().for_each(|&contact| self.release(contact));

@@ -11,7 +11,7 @@ use super::{Rest, Span};
 use crate::bodies::{Bodies, WORLD_ROW};
 use crate::flight::{Influence, mean_center};
 use crate::impacts::time_of_impact::RestLaw;
-use crate::ledger::contacts::{Exerted, captured};
+use crate::ledger::contacts::captured;
 use crate::ledger::flights::set_out;
 use crate::math::DVec3;
 use crate::step::motion::{Plan, set_pace};
@@ -81,13 +81,7 @@ impl Rest {
             follow(bodies, &body, &change, span);
             set_pace(bodies, row, span.until);
         }
-        if let Some(journal) = &mut bodies.journal {
-            let Exerted { impulses, turns, centers, time } = &mut journal.exerted;
-            std::mem::swap(impulses, &mut work.impulses);
-            std::mem::swap(turns, &mut work.turns);
-            std::mem::swap(centers, &mut work.centers);
-            *time = substep;
-        }
+        work.unsettled = substep;
     }
 
     /// Adds up how the contacts turn each body.
