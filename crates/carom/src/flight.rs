@@ -218,6 +218,11 @@ impl Constants {
         if self.rotor.is_isotropic() || momentum == DVec3::ZERO {
             return momentum * self.rotor.inverse_moments.x;
         }
+        self.anisotropic_spin(rotation, momentum)
+    }
+
+    #[inline(never)]
+    fn anisotropic_spin(&self, rotation: DQuat, momentum: DVec3) -> DVec3 {
         self.spin_about(&self.principal_axes(rotation), momentum)
     }
 

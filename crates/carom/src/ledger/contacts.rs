@@ -4,7 +4,7 @@
 //! the velocities before and after where it acts at once, and over the path where it acts evenly.
 
 use super::flights::weight;
-use super::journal::{CAPTURE, CORRECTION, Hold, INTEGRATION, Journal, Passage, Path};
+use super::journal::{CAPTURE, CORRECTION, INTEGRATION, Journal, Motion, Path};
 use crate::bodies::{Bodies, WORLD_ROW};
 use crate::flight::RigidState;
 use crate::math::DVec3;
@@ -31,10 +31,10 @@ pub(crate) struct Push {
 }
 
 impl Push {
-    /// What it is times the passage along which it acts evenly, J·s: over the time of that passage, its work.
+    /// The work (J) that it does on a body that moves like this in the mean.
     #[inline]
-    fn along(&self, passage: &Passage) -> f64 {
-        self.impulse.dot(passage.way) + self.turn.dot(passage.turn)
+    fn work(&self, motion: &Motion) -> f64 {
+        self.impulse.dot(motion.velocity) + self.turn.dot(motion.spin)
     }
 
     /// Angular momentum about the origin that a body gets whose centre of mass is there, N·m·s.
@@ -78,7 +78,8 @@ pub(crate) fn captured(bodies: &mut Bodies, row: usize, [impulse, turn]: [DVec3;
     if let Some(journal) = bodies.journal.as_deref_mut() {
         // What nothing pushes along keeps its velocity.
         let impulse = if bodies.constants[row].inverse_mass > 0.0 { impulse } else { DVec3::ZERO };
-        journal.holds[row].capture = Push { impulse, turn };
+        let hold = &mut journal.holds[row];
+        (hold.is_captured, hold.capture) = (true, Push { impulse, turn });
     }
 }
 
@@ -87,9 +88,9 @@ impl Journal {
     /// has it at hand: causes add up body by body as the whole does, so that no contact has to be gone through again.
     #[inline]
     pub fn note_causes(&mut self, wrench: &Wrench, centers: [DVec3; 2], bounces: bool) {
-        for (row, push) in wrench.rows().into_iter().zip(sides(wrench, wrench.across(), centers)) {
-            self.holds[row].friction += push;
-        }
+        let ([a, b], [push_a, push_b]) = (wrench.rows(), sides(wrench, wrench.across(), centers));
+        self.frictions[a] += push_a;
+        self.frictions[b] += push_b;
         if bounces {
             self.note_rebound(wrench, centers);
         }
@@ -98,68 +99,69 @@ impl Journal {
     #[inline(never)]
     fn note_rebound(&mut self, wrench: &Wrench, centers: [DVec3; 2]) {
         self.rebounds.resize(self.holds.len(), Push::default());
-        for (row, push) in wrench.rows().into_iter().zip(sides(wrench, wrench.normal(), centers)) {
-            self.rebounds[row] += push;
-        }
+        let ([a, b], [push_a, push_b]) = (wrench.rows(), sides(wrench, wrench.normal(), centers));
+        self.rebounds[a] += push_a;
+        self.rebounds[b] += push_b;
     }
 
     /// Books what contacts and rest capture have given to the body of a row.
     #[inline]
     fn book_row(&mut self, bodies: &Bodies, row: usize, (push, center, time): (Push, DVec3, f64)) {
-        // Whoever is held in the next substep will be told so.
-        let hold = std::mem::take(&mut self.holds[row]);
-        let (constants, rate) = (&bodies.constants[row], 1.0 / time);
+        let friction = std::mem::take(&mut self.frictions[row]);
+        let hold = &mut self.holds[row];
         let is_led = hold.path != Path::Free;
-        if !is_led && (row == WORLD_ROW || constants.is_movable()) {
+        // Whoever is held in the next substep will be told so.
+        hold.path = Path::Free;
+        let is_captured = std::mem::take(&mut hold.is_captured);
+        if !is_led && (row == WORLD_ROW || bodies.constants[row].is_movable()) {
             // The ground, and what sleeps: nothing moves along there, so that there is no work.
             self.posts.fixed.add(-push.impulse, -push.moment(center));
             return;
         }
-        if hold.capture != Push::default() {
-            let (work, moment) = (hold.capture.along(&hold.passage) * rate, hold.capture.moment(center));
+        let led = is_led.then(|| hold.passage.motion(time));
+        let mut motion = led.unwrap_or_default();
+        let tally = &mut self.tallies[row];
+        if is_captured {
+            let (work, moment) = (hold.capture.work(&motion), hold.capture.moment(center));
             self.posts.fixed.add(hold.capture.impulse, moment);
             self.posts.loss_rest_capture -= work;
-            let tally = &mut self.tallies[row];
             tally.get(hold.capture.impulse, moment, 0.0);
             tally.get_artefact(CAPTURE, work);
         }
-        let mut driven = hold.passage;
-        if is_led && constants.is_regular() {
-            let work = push.along(&hold.passage) * rate;
-            self.tallies[row].get(push.impulse, push.moment(center), work);
+        if is_led && hold.is_regular {
+            tally.get(push.impulse, push.moment(center), push.work(&motion));
         } else {
-            driven = self.book_driven(bodies, (row, &hold), (push, center, time));
+            motion = self.book_driven(bodies, (row, led), (push, center));
         }
-        self.book_works(row, (push, hold.friction), (&driven, rate));
+        self.book_works(row, (push, friction), &motion);
     }
 
     /// Books what contacts give to what is kinematic, or has an infinite mass or inertia: what it does not take goes to the account of
-    /// what is driven. Returns the passage along which they worked.
+    /// what is driven. `led` is how the body moves on a path that contacts have set it on; returns how it moves with what drives it.
     fn book_driven(
         &mut self,
         bodies: &Bodies,
-        (row, hold): (usize, &Hold),
-        (push, center, time): (Push, DVec3, f64),
-    ) -> Passage {
+        (row, led): (usize, Option<Motion>),
+        (push, center): (Push, DVec3),
+    ) -> Motion {
         let Push { impulse, turn } = push;
-        let (state, constants, passage) = (&bodies.states[row], &bodies.constants[row], hold.passage);
-        let is_led = hold.path != Path::Free;
-        let rotation = if is_led { self.rotations[row] } else { state.rotation };
-        let mut driven = passage;
-        driven.turn += constants.driven_velocity(rotation) * time;
+        let (state, constants) = (&bodies.states[row], &bodies.constants[row]);
+        let rotation = if led.is_some() { self.rotations[row] } else { state.rotation };
+        let mut driven = led.unwrap_or_default();
+        driven.spin += constants.driven_velocity(rotation);
         if constants.inverse_mass == 0.0 {
-            driven.way = state.velocity * time;
+            driven.velocity = state.velocity;
         }
-        let work = push.along(&driven) / time;
-        if !is_led {
+        let work = push.work(&driven);
+        let Some(motion) = led else {
             self.posts.kinematic.add(-impulse, -push.moment(center));
             self.posts.work_kinematic -= work;
             return driven;
-        }
+        };
         let taken = constants.turning_part(rotation, turn);
-        let (mut linear, mut kept) = (impulse, taken.dot(passage.turn) / time);
+        let (mut linear, mut kept) = (impulse, taken.dot(motion.spin));
         if constants.inverse_mass > 0.0 {
-            kept += impulse.dot(passage.way) / time;
+            kept += impulse.dot(motion.velocity);
         } else {
             self.posts.kinematic.add(-impulse, -center.cross(impulse));
             linear = DVec3::ZERO;
@@ -173,12 +175,12 @@ impl Journal {
     /// Books the work that contacts do on the body of a row, cause by cause: of what they give together, `friction` is one part, what would
     /// bounce another one.
     #[inline]
-    fn book_works(&mut self, row: usize, (push, friction): (Push, Push), (passage, rate): (&Passage, f64)) {
+    fn book_works(&mut self, row: usize, (push, friction): (Push, Push), motion: &Motion) {
         let normal = Push { impulse: push.impulse - friction.impulse, turn: push.turn - friction.turn };
-        self.posts.loss_friction -= friction.along(passage) * rate;
-        let mut work = normal.along(passage) * rate;
+        self.posts.loss_friction -= friction.work(motion);
+        let mut work = normal.work(motion);
         if let Some(rebound) = self.rebounds.get(row) {
-            let captured = rebound.along(passage) * rate;
+            let captured = rebound.work(motion);
             self.posts.loss_rest_capture -= captured;
             self.tallies[row].artefacts[CAPTURE] += captured;
             work -= captured;

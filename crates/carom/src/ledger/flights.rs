@@ -281,17 +281,18 @@ fn sector(x: f64) -> f64 {
 pub(crate) fn set_out(bodies: &mut Bodies, row: usize, before: &RigidState, (time, steady): (f64, bool)) {
     let Some(journal) = bodies.journal.as_deref_mut() else { return };
     let (after, constants) = (&bodies.states[row], &bodies.constants[row]);
-    if !constants.is_regular() {
+    let hold = &mut journal.holds[row];
+    hold.is_regular = constants.is_regular();
+    if !hold.is_regular {
         journal.rotations[row] = before.rotation;
     }
     if steady {
-        journal.holds[row].path = Path::Steady;
+        (hold.path, hold.passage) = (Path::Steady, Passage::default());
         return;
     }
     let way = (before.velocity + after.velocity) * (0.5 * time);
     let momentum = 0.5 * (before.angular_momentum + after.angular_momentum);
     let turn = constants.free_spin(before.rotation, momentum) * time;
-    let hold = &mut journal.holds[row];
     (hold.path, hold.passage) = (Path::Kicked, Passage { way, turn });
 
     let (posts, tally) = (&mut journal.posts, &mut journal.tallies[row]);

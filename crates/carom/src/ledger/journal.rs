@@ -27,6 +27,8 @@ pub(crate) struct Journal {
     gross: [f64; 3],
     /// Whether bodies still have what they had then: nobody has been at them.
     is_known: bool,
+    /// Row by row, what friction and twist give in the present substep, as a part of what contacts do.
+    pub frictions: Vec<Push>,
     /// Row by row, what contacts give along their normals in the present substep that bounce when struck faster; empty if there are none.
     pub rebounds: Vec<Push>,
     /// A body was lost.
@@ -106,13 +108,16 @@ impl Tally {
     }
 }
 
-/// What contacts do to a body in the present substep; nothing, where they do not hold it.
+/// What a body does that contacts hold, in the present substep.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Hold {
     pub path: Path,
+    /// Whether its mass and its inertia are finite.
+    pub is_regular: bool,
+    /// Whether rest capture gives something to it, too.
+    pub is_captured: bool,
+    /// Told if its path is not free; and what rest capture gives, if it does.
     pub passage: Passage,
-    /// What friction and twist give, as a part of what contacts do, and rest capture besides.
-    pub friction: Push,
     pub capture: Push,
 }
 
@@ -121,6 +126,22 @@ pub(crate) struct Hold {
 pub(crate) struct Passage {
     pub way: DVec3,
     pub turn: DVec3,
+}
+
+impl Passage {
+    /// How a body moved in the mean that took so long (s) for it.
+    #[inline]
+    pub fn motion(&self, time: f64) -> Motion {
+        let rate = 1.0 / time;
+        Motion { velocity: self.way * rate, spin: self.turn * rate }
+    }
+}
+
+/// How a body moves in the mean while contacts act on it: m/s, rad/s.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Motion {
+    pub velocity: DVec3,
+    pub spin: DVec3,
 }
 
 /// How forces act on a body.
@@ -168,6 +189,7 @@ impl Journal {
         self.tallies.clear();
         self.tallies.resize(rows, Tally::default());
         self.holds.resize(rows, Hold::default());
+        self.frictions.resize(rows, Push::default());
         self.rotations.resize(rows, DQuat::IDENTITY);
         self.sum
     }

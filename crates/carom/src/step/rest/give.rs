@@ -87,11 +87,11 @@ impl Rest {
     /// Adds up how the contacts turn each body.
     fn turn(&self, bodies: &mut Bodies, work: &mut Work) {
         for wrench in &work.wrenches {
-            let push = [wrench.impulse(), wrench.moment()];
-            let centers = wrench.rows().map(|row| work.centers[row]);
-            for (row, turn) in wrench.rows().into_iter().zip(wrench.turns(push, centers)) {
-                work.turns[row] += turn;
-            }
+            let (push, [a, b]) = ([wrench.impulse(), wrench.moment()], wrench.rows());
+            let centers = [work.centers[a], work.centers[b]];
+            let [turn_a, turn_b] = wrench.turns(push, centers);
+            work.turns[a] += turn_a;
+            work.turns[b] += turn_b;
             if let Some(journal) = &mut bodies.journal {
                 journal.note_causes(wrench, centers, self.manners[wrench.contact.index()].bounces);
             }
