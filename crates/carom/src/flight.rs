@@ -241,7 +241,7 @@ impl Constants {
     pub fn turn_of_kicks(&self, rotation: DQuat, [momentum, kick]: [DVec3; 2], time: f64) -> DVec3 {
         let inverse = self.rotor.inverse_moments;
         let axes = self.principal_axes(rotation);
-        let [momentum, kick] = [momentum, kick].map(|it| axes.mul_transpose_vec3(it));
+        let (momentum, kick) = (axes.mul_transpose_vec3(momentum), axes.mul_transpose_vec3(kick));
         let turn = time * (inverse * momentum);
         let change = turn.cross(inverse * kick) - inverse * turn.cross(kick);
         axes * (turn + 0.25 * time * change)

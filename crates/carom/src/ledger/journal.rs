@@ -112,8 +112,9 @@ impl Tally {
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Hold {
     pub path: Path,
-    /// Whether its mass and its inertia are finite.
+    /// Whether its mass and its inertia are finite; and whether besides, contacts and gravity alone act on it.
     pub is_regular: bool,
+    pub is_plain: bool,
     /// Whether rest capture gives something to it, too.
     pub is_captured: bool,
     /// Told if its path is not free; and what rest capture gives, if it does.
