@@ -33,13 +33,14 @@ struct Flight<'a> {
     acts: bool,
 }
 
-/// Books what the body of `row`, which had the state `before`, did within `time` seconds to get to its own.
-pub(crate) fn flown(bodies: &mut Bodies, row: usize, before: &RigidState, time: f64) {
+/// Books what the body of `row` does within `time` seconds to get from its own state to the one `after`.
+pub(crate) fn flown(bodies: &mut Bodies, row: usize, after: &RigidState, time: f64) {
     let Some(journal) = bodies.journal.as_deref_mut() else { return };
-    let (constants, influence) = (&bodies.constants[row], &bodies.influences[row]);
+    let (before, constants, influence) =
+        (&bodies.states[row], &bodies.constants[row], &bodies.influences[row]);
     let Hold { path, is_plain, .. } = journal.holds[row];
     if path == Path::Steady && is_plain {
-        let flight = PlainFlight { before, after: &bodies.states[row], constants, influence, time };
+        let flight = PlainFlight { before, after, constants, influence, time };
         if flight.book(journal, row) {
             return;
         }
@@ -49,7 +50,7 @@ pub(crate) fn flown(bodies: &mut Bodies, row: usize, before: &RigidState, time: 
     }
     if path == Path::Free && only_falls(constants, influence, journal.gravity) {
         journal.tallies[row].fall.add(mean_center(before, constants, influence, time), time);
-        let (momentum, arrival) = (before.angular_momentum, bodies.states[row].rotation);
+        let (momentum, arrival) = (before.angular_momentum, after.rotation);
         if !constants.is_isotropic() && momentum != DVec3::ZERO {
             let [start, end] = [before.rotation, arrival].map(|it| constants.spin_energy(it, momentum));
             journal.turned(row, constants, end - start);
@@ -59,7 +60,7 @@ pub(crate) fn flown(bodies: &mut Bodies, row: usize, before: &RigidState, time: 
     let (push, torque) = bodies.forces.of(row);
     let flight = Flight {
         before,
-        after: &bodies.states[row],
+        after,
         constants,
         influence,
         time,
