@@ -3,6 +3,7 @@
 //! An impulse P at a place with the moment M about a body's centre does the work `P·v̄ + M·ω̄`: exactly, if v̄ and ω̄ are the means of
 //! the velocities before and after where it acts at once, and over the path where it acts evenly.
 
+use super::Residual;
 use super::flights::weight;
 use super::journal::{CAPTURE, CORRECTION, INTEGRATION, Journal, Motion, Path};
 use crate::bodies::{Bodies, WORLD_ROW};
@@ -35,6 +36,12 @@ impl Push {
     #[inline]
     fn work(&self, motion: &Motion) -> f64 {
         self.impulse.dot(motion.velocity) + self.turn.dot(motion.spin)
+    }
+
+    /// What a body gets whose centre of mass is there, and which moves like this in the mean.
+    #[inline]
+    fn gives(&self, center: DVec3, motion: &Motion) -> Residual {
+        Residual { linear: self.impulse, angular: self.moment(center), energy: self.work(motion) }
     }
 
     /// Angular momentum about the origin that a body gets whose centre of mass is there, N·m·s.
@@ -120,17 +127,20 @@ impl Journal {
         }
         let led = is_led.then(|| hold.passage.motion(time));
         let mut motion = led.unwrap_or_default();
-        let tally = &mut self.tallies[row];
-        if is_captured {
-            let (work, moment) = (hold.capture.work(&motion), hold.capture.moment(center));
-            self.posts.fixed.add(hold.capture.impulse, moment);
-            self.posts.loss_rest_capture -= work;
-            tally.get(hold.capture.impulse, moment, 0.0);
-            tally.get_artefact(CAPTURE, work);
+        let is_regular = is_led && hold.is_regular;
+        let mut got = Residual::default();
+        if is_regular {
+            got = push.gives(center, &motion);
         }
-        if is_led && hold.is_regular {
-            tally.get(push.impulse, push.moment(center), push.work(&motion));
-        } else {
+        if is_captured {
+            let given = hold.capture.gives(center, &motion);
+            self.posts.fixed.add(given.linear, given.angular);
+            self.posts.loss_rest_capture -= given.energy;
+            self.tallies[row].artefacts[CAPTURE] += given.energy;
+            got += given;
+        }
+        self.tallies[row].get(got.linear, got.angular, got.energy);
+        if !is_regular {
             motion = self.book_driven(bodies, (row, led), (push, center));
         }
         self.book_works(row, (push, friction), &motion);

@@ -9,14 +9,10 @@
 //! energy changes by meanwhile is the integrator's.
 
 use super::journal::{Hold, INTEGRATION, Journal, Passage, Path};
+use super::plain::{PlainFlight, is_plain};
 use crate::bodies::Bodies;
 use crate::flight::{Constants, Influence, RigidState, mean_center};
-use crate::math::{DQuat, DVec3, decay_fractions};
-
-/// Angle (rad) up to which the turn of a plain flight is told by [`Constants::turn_of_kicks`], which is off by the square of it; and up
-/// to which it is the one from orientation to orientation: the work of a torque is off by this share at most.
-const SLIGHT_TURN: f64 = 1e-5;
-const HARDLY_A_TURN: f64 = 1e-7;
+use crate::math::{DVec3, decay_fractions};
 
 /// A stretch of a body's path.
 struct Flight<'a> {
@@ -107,73 +103,6 @@ pub(super) fn heavy_mass(constants: &Constants) -> f64 {
 #[inline]
 pub(super) fn weight(constants: &Constants, gravity: DVec3) -> DVec3 {
     heavy_mass(constants) * gravity
-}
-
-/// A stretch of the path of a body on which contacts and gravity alone act, evenly: so on most of what rests.
-struct PlainFlight<'a> {
-    before: &'a RigidState,
-    after: &'a RigidState,
-    constants: &'a Constants,
-    influence: &'a Influence,
-    time: f64,
-}
-
-impl PlainFlight<'_> {
-    /// The same as [`Flight::book`] does where that is all, and the body turns about all axes alike or but slightly: how long gravity acts
-    /// and where, and the passage along which contacts work. Tells whether it has.
-    #[inline]
-    fn book(&self, journal: &mut Journal, row: usize) -> bool {
-        let Some(turn) = self.turn() else { return false };
-        let mean = mean_center(self.before, self.constants, self.influence, self.time);
-        journal.tallies[row].fall.add(mean, self.time);
-        let passage = &mut journal.holds[row].passage;
-        passage.way += self.after.position - self.before.position;
-        passage.turn += turn;
-        true
-    }
-
-    /// How far it turns, rad, if that is told by one vector.
-    #[inline]
-    fn turn(&self) -> Option<DVec3> {
-        let (before, after, constants) = (self.before, self.after, self.constants);
-        if constants.is_isotropic() {
-            // However it is turned, the mean of its angular velocities is that of the mean of its angular momenta.
-            let momentum = 0.5 * (before.angular_momentum + after.angular_momentum);
-            return Some(constants.free_spin(before.rotation, momentum) * self.time);
-        }
-        let turn = small_turn(before.rotation, after.rotation);
-        if turn.length_squared() <= HARDLY_A_TURN * HARDLY_A_TURN {
-            return Some(turn);
-        }
-        self.slight_turn()
-    }
-
-    #[inline(never)]
-    fn slight_turn(&self) -> Option<DVec3> {
-        let kick = 0.5 * self.time * self.influence.torque;
-        let momentum = self.before.angular_momentum + kick;
-        let middle = (self.before.rotation + self.after.rotation) * 0.5;
-        let turn = self.constants.turn_of_kicks(middle, [momentum, kick], self.time);
-        (turn.length_squared() <= SLIGHT_TURN * SLIGHT_TURN).then_some(turn)
-    }
-}
-
-/// The turn (rad) from one orientation to another one, as long as it is small. The differences are exact, so that only the orientations
-/// are rounded.
-#[inline]
-fn small_turn(from: DQuat, to: DQuat) -> DVec3 {
-    let (axis, step) = (from.xyz(), to - from);
-    let change = step.xyz();
-    2.0 * (from.w * change - step.w * axis + axis.cross(change))
-}
-
-/// Whether contacts and gravity alone act on a body that contacts lead along an even path, and its mass and inertia are finite.
-fn is_plain(bodies: &Bodies, row: usize) -> bool {
-    let constants = &bodies.constants[row];
-    constants.is_regular()
-        && constants.linear_damping == 0.0
-        && constants.angular_damping == 0.0
-        && bodies.forces.of(row) == (DVec3::ZERO, DVec3::ZERO)
 }
 
 impl Flight<'_> {
@@ -312,7 +241,6 @@ fn sector(x: f64) -> f64 {
 /// Books what the body of `row`, which had the state `before`, got at the start of a substep of `time` seconds: nothing if its path
 /// is `steady`, else all that gravity and the user's forces give. What contacts give is booked when the substep is over.
 pub(crate) fn set_out(bodies: &mut Bodies, row: usize, before: &RigidState, (time, steady): (f64, bool)) {
-    let is_plain = bodies.journal.is_some() && steady && is_plain(bodies, row);
     let Some(journal) = bodies.journal.as_deref_mut() else { return };
     let (after, constants) = (&bodies.states[row], &bodies.constants[row]);
     let hold = &mut journal.holds[row];
@@ -322,7 +250,7 @@ pub(crate) fn set_out(bodies: &mut Bodies, row: usize, before: &RigidState, (tim
     }
     if steady {
         (hold.path, hold.passage) = (Path::Steady, Passage::default());
-        hold.is_plain = is_plain;
+        hold.is_plain = is_plain(constants) && !bodies.forces.act_on(row);
         return;
     }
     let way = (before.velocity + after.velocity) * (0.5 * time);

@@ -253,7 +253,8 @@ impl Journal {
     pub fn residuals(&self, bodies: &Bodies) -> impl Iterator<Item = Residual> {
         let rows = self.start.iter().zip(&self.end).zip(&self.tallies);
         rows.zip(&bodies.constants).map(|(((start, end), tally), constants)| {
-            let Momentum { linear, angular } = tally.fall.of_mass(heavy_mass(constants)).momentum(self.gravity);
+            let Momentum { linear, angular } =
+                tally.fall.of_mass(heavy_mass(constants)).momentum(self.gravity);
             end.since(start) - tally.explained - Residual { linear, angular, energy: 0.0 }
         })
     }
