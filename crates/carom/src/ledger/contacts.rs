@@ -71,7 +71,9 @@ pub(crate) fn settle(bodies: &mut Bodies, exerted: &Exerted) {
     let Some(mut journal) = bodies.journal.take() else { return };
     for row in 0..exerted.impulses.len() {
         let push = Push { impulse: exerted.impulses[row], turn: exerted.turns[row] };
-        if journal.holds[row].path != Path::Free || push != Push::default() {
+        let is_nothing = |push: &Push| *push == Push::default();
+        if journal.holds[row].path != Path::Free || !is_nothing(&push) || !is_nothing(&journal.frictions[row])
+        {
             journal.book_row(bodies, row, (push, exerted.centers[row], exerted.time));
         }
     }
@@ -85,8 +87,8 @@ pub(crate) fn captured(bodies: &mut Bodies, row: usize, [impulse, turn]: [DVec3;
     if let Some(journal) = bodies.journal.as_deref_mut() {
         // What nothing pushes along keeps its velocity.
         let impulse = if bodies.constants[row].inverse_mass > 0.0 { impulse } else { DVec3::ZERO };
-        let hold = &mut journal.holds[row];
-        (hold.is_captured, hold.capture) = (true, Push { impulse, turn });
+        journal.holds[row].is_captured = true;
+        journal.captures[row] = Push { impulse, turn };
     }
 }
 
@@ -120,20 +122,20 @@ impl Journal {
         // Whoever is held in the next substep will be told so.
         hold.path = Path::Free;
         let is_captured = std::mem::take(&mut hold.is_captured);
+        let is_regular = is_led && hold.is_regular;
         if !is_led && (row == WORLD_ROW || bodies.constants[row].is_movable()) {
             // The ground, and what sleeps: nothing moves along there, so that there is no work.
             self.posts.fixed.add(-push.impulse, -push.moment(center));
             return;
         }
-        let led = is_led.then(|| hold.passage.motion(time));
+        let led = is_led.then(|| self.passages[row].motion(time));
         let mut motion = led.unwrap_or_default();
-        let is_regular = is_led && hold.is_regular;
         let mut got = Residual::default();
         if is_regular {
             got = push.gives(center, &motion);
         }
         if is_captured {
-            let given = hold.capture.gives(center, &motion);
+            let given = self.captures[row].gives(center, &motion);
             self.posts.fixed.add(given.linear, given.angular);
             self.posts.loss_rest_capture -= given.energy;
             self.tallies[row].artefacts[CAPTURE] += given.energy;

@@ -45,7 +45,7 @@ pub(crate) fn flown(bodies: &mut Bodies, row: usize, after: &RigidState, time: f
         return;
     }
     if path == Path::Free && only_falls(constants, influence, journal.gravity) {
-        journal.tallies[row].fall.add(mean_center(before, constants, influence, time), time);
+        journal.falls[row].add(mean_center(before, constants, influence, time), time);
         let (momentum, arrival) = (before.angular_momentum, after.rotation);
         if !constants.is_isotropic() && momentum != DVec3::ZERO {
             let [start, end] = [before.rotation, arrival].map(|it| constants.spin_energy(it, momentum));
@@ -120,11 +120,11 @@ impl Flight<'_> {
         let (posts, tally) = (&mut journal.posts, &mut journal.tallies[row]);
         let way = self.after.position - self.before.position;
         if self.path == Path::Steady {
-            journal.holds[row].passage.way += way;
+            journal.passages[row].way += way;
         }
         if self.acts {
             let mean = mean_center(self.before, self.constants, self.influence, self.time);
-            tally.fall.add(mean, self.time);
+            journal.falls[row].add(mean, self.time);
             if self.push != DVec3::ZERO {
                 let (impulse, work) = (self.push * self.time, self.push.dot(way));
                 posts.external.add(impulse, mean.cross(impulse));
@@ -203,7 +203,7 @@ impl Flight<'_> {
         let by_user = self.acts && self.torque != DVec3::ZERO;
         let turn = (first + last) * (0.25 * time);
         if self.path == Path::Steady {
-            journal.holds[row].passage.turn += turn;
+            journal.passages[row].turn += turn;
         }
         if by_user {
             let impulse = self.torque * time;
@@ -249,14 +249,16 @@ pub(crate) fn set_out(bodies: &mut Bodies, row: usize, before: &RigidState, (tim
         journal.rotations[row] = before.rotation;
     }
     if steady {
-        (hold.path, hold.passage) = (Path::Steady, Passage::default());
+        hold.path = Path::Steady;
         hold.is_plain = is_plain(constants) && !bodies.forces.act_on(row);
+        journal.passages[row] = Passage::default();
         return;
     }
     let way = (before.velocity + after.velocity) * (0.5 * time);
     let momentum = 0.5 * (before.angular_momentum + after.angular_momentum);
     let turn = constants.free_spin(before.rotation, momentum) * time;
-    (hold.path, hold.passage) = (Path::Kicked, Passage { way, turn });
+    hold.path = Path::Kicked;
+    journal.passages[row] = Passage { way, turn };
 
     let (posts, tally) = (&mut journal.posts, &mut journal.tallies[row]);
     let (mut push, torque) = bodies.forces.of(row);
@@ -264,7 +266,7 @@ pub(crate) fn set_out(bodies: &mut Bodies, row: usize, before: &RigidState, (tim
         push = DVec3::ZERO;
     }
     let pull = weight(constants, journal.gravity);
-    tally.fall.add(before.position, time);
+    journal.falls[row].add(before.position, time);
     posts.integration += pull.dot(way);
     tally.get_artefact(INTEGRATION, pull.dot(way));
     if push != DVec3::ZERO || torque != DVec3::ZERO {

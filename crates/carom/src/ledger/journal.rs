@@ -17,7 +17,11 @@ pub(crate) struct Journal {
     start: Vec<Stock>,
     end: Vec<Stock>,
     pub tallies: Vec<Tally>,
+    pub falls: Vec<Fall>,
     pub holds: Vec<Hold>,
+    /// Where contacts lead what they hold, from when it sets out; and what rest capture gives to whom it captures.
+    pub passages: Vec<Passage>,
+    pub captures: Vec<Push>,
     /// Orientations when they set out of those of which something is infinite.
     pub rotations: Vec<DQuat>,
     /// Of the step that is over, the row whose body got most energy from an artefact, and how much, J.
@@ -39,7 +43,6 @@ pub(crate) struct Journal {
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Tally {
     explained: Residual,
-    pub fall: Fall,
     /// Energy that each of the [`ARTEFACTS`] gave, J.
     pub artefacts: [f64; ARTEFACTS.len()],
 }
@@ -117,9 +120,6 @@ pub(crate) struct Hold {
     pub is_plain: bool,
     /// Whether rest capture gives something to it, too.
     pub is_captured: bool,
-    /// Told if its path is not free; and what rest capture gives, if it does.
-    pub passage: Passage,
-    pub capture: Push,
 }
 
 /// Way (m) and turn (rad) along which a force of contacts and its torque work, if they act evenly.
@@ -177,19 +177,21 @@ impl Journal {
     pub fn open(&mut self, bodies: &Bodies, gravity: DVec3) -> Stock {
         let rows = bodies.states.len();
         self.lost = false;
+        self.tallies.clear();
+        self.tallies.resize(rows, Tally::default());
+        self.falls.clear();
+        self.falls.resize(rows, Fall::default());
         if self.is_known && self.gravity == gravity && self.end.len() == rows {
             std::mem::swap(&mut self.start, &mut self.end);
         } else {
             self.gravity = gravity;
-            self.tallies.clear();
-            self.tallies.resize(rows, Tally::default());
             self.look(bodies);
             std::mem::swap(&mut self.start, &mut self.end);
         }
         self.is_known = false;
-        self.tallies.clear();
-        self.tallies.resize(rows, Tally::default());
         self.holds.resize(rows, Hold::default());
+        self.passages.resize(rows, Passage::default());
+        self.captures.resize(rows, Push::default());
         self.frictions.resize(rows, Push::default());
         self.rotations.resize(rows, DQuat::IDENTITY);
         self.sum
@@ -219,12 +221,14 @@ impl Journal {
         self.end.clear();
         self.end.reserve(bodies.states.len());
         let bodies = bodies.states.chunks(BATCH).zip(bodies.constants.chunks(BATCH));
-        for ((states, constants), tallies) in bodies.zip(self.tallies.chunks(BATCH)) {
+        let noted = self.tallies.chunks(BATCH).zip(self.falls.chunks(BATCH));
+        for ((states, constants), (tallies, falls)) in bodies.zip(noted) {
             // Sums of sums are rounded less than one long one.
-            let mut falls = Fall::default();
-            for ((state, constants), tally) in states.iter().zip(constants).zip(tallies) {
+            let mut batch = Fall::default();
+            let bodies = states.iter().zip(constants);
+            for ((state, constants), (tally, fall)) in bodies.zip(tallies.iter().zip(falls)) {
                 let (stock, mass) = (Stock::of(state, constants, gravity), heavy_mass(constants));
-                falls += tally.fall.of_mass(mass);
+                batch += fall.of_mass(mass);
                 sum += stock;
                 let distance = state.position.length();
                 add_to(&mut gross, stock.sizes(distance));
@@ -236,7 +240,7 @@ impl Journal {
                 }
                 self.end.push(stock);
             }
-            all += falls;
+            all += batch;
         }
         (self.sum, self.gross) = (sum, gross);
         (all, pulls)
@@ -252,9 +256,9 @@ impl Journal {
     /// Row by row, what no cause explains of the step that is over.
     pub fn residuals(&self, bodies: &Bodies) -> impl Iterator<Item = Residual> {
         let rows = self.start.iter().zip(&self.end).zip(&self.tallies);
-        rows.zip(&bodies.constants).map(|(((start, end), tally), constants)| {
-            let Momentum { linear, angular } =
-                tally.fall.of_mass(heavy_mass(constants)).momentum(self.gravity);
+        let falls = bodies.constants.iter().zip(&self.falls);
+        rows.zip(falls).map(|(((start, end), tally), (constants, fall))| {
+            let Momentum { linear, angular } = fall.of_mass(heavy_mass(constants)).momentum(self.gravity);
             end.since(start) - tally.explained - Residual { linear, angular, energy: 0.0 }
         })
     }
@@ -271,6 +275,7 @@ impl Journal {
         if row < self.start.len() {
             self.start.swap_remove(row);
             self.tallies.swap_remove(row);
+            self.falls.swap_remove(row);
             self.holds.swap_remove(row);
         }
     }

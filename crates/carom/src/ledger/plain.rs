@@ -32,8 +32,8 @@ impl PlainFlight<'_> {
     pub fn book(&self, journal: &mut Journal, row: usize) -> bool {
         let Some(turn) = self.turn() else { return false };
         let mean = mean_center(self.before, self.constants, self.influence, self.time);
-        journal.tallies[row].fall.add(mean, self.time);
-        let passage = &mut journal.holds[row].passage;
+        journal.falls[row].add(mean, self.time);
+        let passage = &mut journal.passages[row];
         passage.way += self.after.position - self.before.position;
         passage.turn += turn;
         true
