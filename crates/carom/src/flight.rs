@@ -218,6 +218,11 @@ impl Constants {
         if self.rotor.is_isotropic() || momentum == DVec3::ZERO {
             return momentum * self.rotor.inverse_moments.x;
         }
+        self.anisotropic_spin(rotation, momentum)
+    }
+
+    #[inline(never)]
+    fn anisotropic_spin(&self, rotation: DQuat, momentum: DVec3) -> DVec3 {
         self.spin_about(&self.principal_axes(rotation), momentum)
     }
 
@@ -227,14 +232,39 @@ impl Constants {
         *axes * (axes.mul_transpose_vec3(momentum) * self.rotor.inverse_moments)
     }
 
-    /// The energy (J) with which an angular momentum turns the body that has these principal axes in the world: `½ Σ aᵢπᵢ²`.
+    /// How far (rad) the body turns in `time` (s) where its angular momentum gets `kick` before it turns, which makes it `momentum`, and
+    /// `kick` again when it has turned: over this turn a torque does the work of both kicks.
+    ///
+    /// With `S` the inverse inertia in the mean orientation and `φ = tSL` that is the mean of the angular velocities during both, half a
+    /// turn before and after, `t·SL + ¼t·(φ × Sk − S(φ × k))`, but for the square of the turn.
     #[inline]
-    pub fn spin_energy(&self, axes: &DMat3, momentum: DVec3) -> f64 {
+    pub fn turn_of_kicks(&self, rotation: DQuat, [momentum, kick]: [DVec3; 2], time: f64) -> DVec3 {
+        let inverse = self.rotor.inverse_moments;
+        let axes = self.principal_axes(rotation);
+        let (momentum, kick) = (axes.mul_transpose_vec3(momentum), axes.mul_transpose_vec3(kick));
+        let turn = time * (inverse * momentum);
+        let change = turn.cross(inverse * kick) - inverse * turn.cross(kick);
+        axes * (turn + 0.25 * time * change)
+    }
+
+    /// The energy (J) with which an angular momentum turns the body in this orientation, without the driven spin.
+    #[inline]
+    pub fn spin_energy(&self, rotation: DQuat, momentum: DVec3) -> f64 {
+        if self.rotor.is_isotropic() {
+            return 0.5 * momentum.dot(momentum * self.rotor.inverse_moments.x);
+        }
+        self.spin_energy_about(&self.principal_axes(rotation), momentum)
+    }
+
+    /// The same where the principal axes in the world are known: `½ Σ aᵢπᵢ²`.
+    #[inline]
+    pub fn spin_energy_about(&self, axes: &DMat3, momentum: DVec3) -> f64 {
         let local = axes.mul_transpose_vec3(momentum);
         0.5 * (local * local).dot(self.rotor.inverse_moments)
     }
 
     /// The principal axes in the world.
+    #[inline]
     pub fn principal_axes(&self, rotation: DQuat) -> DMat3 {
         DMat3::from_quat(self.rotor.axes(rotation))
     }
@@ -491,6 +521,27 @@ mod tests {
             assert!((above - below).length() < 3e-6 * above.length(), "{above} against {below}");
             assert!((turn(rotation, momentum, &constants, 0.5e-6).length() - 1.0).abs() < 1e-15);
         }
+    }
+
+    #[test]
+    fn two_kicks_work_over_the_mean_of_the_turns_that_they_would_make() {
+        let mass = BodyMass { mass: 1.0, moments: DVec3::new(1.0, 2.0, 3.0), ..BodyMass::INFINITE };
+        let constants = Constants::new(&mass, DQuat::IDENTITY, DVec3::ZERO);
+        let start = RigidState {
+            rotation: rotation_from_vector(DVec3::new(-0.5, 0.2, 1.1)),
+            angular_momentum: DVec3::new(0.2, -0.4, 0.3),
+            ..RigidState::REST
+        };
+        let (time, torque) = (1e-5, 0.5e5 * DVec3::new(0.7, 0.3, 0.4));
+        let end = fly(&start, &constants, &Influence { torque, ..Influence::default() }, time);
+        let kick = 0.5 * time * torque;
+        let spin = |rotation, momentum| constants.free_spin(rotation, momentum);
+        let [first, last] = [(&start, 0.5 * kick), (&end, -0.5 * kick)]
+            .map(|(state, more)| spin(state.rotation, state.angular_momentum + more));
+        let middle = (start.rotation + end.rotation) * 0.5;
+        let turn = constants.turn_of_kicks(middle, [start.angular_momentum + kick, kick], time);
+        let error = (turn / time - 0.5 * (first + last)).length();
+        assert!(error < 1e-10 * first.length(), "{error}");
     }
 
     #[test]

@@ -18,18 +18,18 @@
 //! ledger/stock.rs      what a body has
 //! ledger/posts.rs      the causes, and their sums
 //! ledger/journal.rs    what is noted while a step goes on
-//! ledger/axes.rs       where bodies' principal axes point
 //! ledger/flights.rs    who books what flights do: gravity, forces, damping, turning
+//! ledger/plain.rs      the same, where a body lies still
 //! ledger/contacts.rs   contacts that rest, rest capture, overlaps
 //! ledger/impacts.rs    collisions
 //! ledger/worst.rs      which step and which body fitted worst
 //! ```
 
-mod axes;
 pub(crate) mod contacts;
 pub(crate) mod flights;
 pub(crate) mod impacts;
 pub(crate) mod journal;
+mod plain;
 mod posts;
 mod stock;
 mod worst;

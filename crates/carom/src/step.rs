@@ -25,7 +25,7 @@ pub mod profile;
 pub(crate) mod rest;
 
 use crate::impacts::time_of_impact::RestLaw;
-use crate::ledger::{contacts, impacts as collisions};
+use crate::ledger::impacts as collisions;
 use crate::world::World;
 use events::Events;
 use profile::Phase;
@@ -55,7 +55,7 @@ pub(crate) fn step(world: &mut World, time: f64) {
     motion::finish_flight(&mut world.bodies, time, &world.pool);
 
     let _finish = profile::phase(Phase::Finish);
-    contacts::settle(&mut world.bodies);
+    world.rest.settle(&mut world.bodies);
     collisions::book(&mut world.bodies, &impacts);
 
     world.rest.push_out(&mut world.bodies, law);

@@ -17,6 +17,12 @@ impl Forces {
         self.0.get(&row).copied().unwrap_or_default()
     }
 
+    /// Whether the user pushes the body of a row.
+    #[inline]
+    pub fn act_on(&self, row: usize) -> bool {
+        self.0.contains_key(&row)
+    }
+
     /// Pushes it with this, too.
     pub fn add(&mut self, row: usize, (force, torque): Push) {
         let sum = self.0.entry(row).or_default();

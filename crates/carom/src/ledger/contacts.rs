@@ -5,36 +5,43 @@
 
 use super::Residual;
 use super::flights::weight;
-use super::journal::{CAPTURE, CORRECTION, INTEGRATION, Journal, Passage, Path};
+use super::journal::{CAPTURE, CORRECTION, INTEGRATION, Journal, Motion, Path};
 use crate::bodies::{Bodies, WORLD_ROW};
 use crate::flight::RigidState;
 use crate::math::DVec3;
 use crate::solver::graph::Wrench;
+use std::ops::AddAssign;
 
-/// What contacts exert during a substep, row by row.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Exerted {
-    /// What they give together: impulse, and angular impulse about the centre of mass.
-    pub impulses: Vec<DVec3>,
-    pub turns: Vec<DVec3>,
-    /// Where the centres of mass are when the impulses act, or in the mean.
-    pub centers: Vec<DVec3>,
-    /// Length of the substep, s; 0 once it is booked.
+/// What contacts have exerted during a substep, row by row.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Exerted<'a> {
+    /// What they gave together: impulse, and angular impulse about the centre of mass.
+    pub impulses: &'a [DVec3],
+    pub turns: &'a [DVec3],
+    /// Where the centres of mass were when the impulses acted, or in the mean.
+    pub centers: &'a [DVec3],
+    /// Length of the substep, s.
     pub time: f64,
 }
 
 /// What a body gets: an impulse, N·s, and an angular impulse about its centre of mass, N·m·s.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Push {
     impulse: DVec3,
     turn: DVec3,
 }
 
 impl Push {
-    /// What it is times the passage along which it acts evenly, J·s: over the time of that passage, its work.
+    /// The work (J) that it does on a body that moves like this in the mean.
     #[inline]
-    fn along(&self, passage: &Passage) -> f64 {
-        self.impulse.dot(passage.way) + self.turn.dot(passage.turn)
+    fn work(&self, motion: &Motion) -> f64 {
+        self.impulse.dot(motion.velocity) + self.turn.dot(motion.spin)
+    }
+
+    /// What a body gets whose centre of mass is there, and which moves like this in the mean.
+    #[inline]
+    fn gives(&self, center: DVec3, motion: &Motion) -> Residual {
+        Residual { linear: self.impulse, angular: self.moment(center), energy: self.work(motion) }
     }
 
     /// Angular momentum about the origin that a body gets whose centre of mass is there, N·m·s.
@@ -44,32 +51,33 @@ impl Push {
     }
 }
 
-/// Adds what a contact exerts by one of its causes (impulse, moment) to what that cause gives to its two bodies.
+impl AddAssign for Push {
+    #[inline]
+    fn add_assign(&mut self, other: Self) {
+        self.impulse += other.impulse;
+        self.turn += other.turn;
+    }
+}
+
+/// What a contact gives to its two bodies by one of its causes (impulse, moment).
 #[inline]
-fn add_sides(pushes: [&mut Push; 2], wrench: &Wrench, [impulse, moment]: [DVec3; 2], centers: [DVec3; 2]) {
-    let ([a, b], [turn_a, turn_b]) = (pushes, wrench.turns([impulse, moment], centers));
-    a.impulse -= impulse;
-    a.turn += turn_a;
-    b.impulse += impulse;
-    b.turn += turn_b;
+fn sides(wrench: &Wrench, [impulse, moment]: [DVec3; 2], centers: [DVec3; 2]) -> [Push; 2] {
+    let [turn_a, turn_b] = wrench.turns([impulse, moment], centers);
+    [Push { impulse: -impulse, turn: turn_a }, Push { impulse, turn: turn_b }]
 }
 
 /// Books what contacts have exerted in the substep that is over.
-pub(crate) fn settle(bodies: &mut Bodies) {
+pub(crate) fn settle(bodies: &mut Bodies, exerted: &Exerted) {
     let Some(mut journal) = bodies.journal.take() else { return };
-    let mut exerted = std::mem::take(&mut journal.exerted);
-    if exerted.time > 0.0 {
-        for row in 0..exerted.impulses.len() {
-            journal.book_row(bodies, row, &exerted);
-            // Whoever is held in the next substep will be told so.
-            if std::mem::take(&mut journal.paths[row]) != Path::Free {
-                journal.passages[row] = Passage::default();
-            }
+    for row in 0..exerted.impulses.len() {
+        let push = Push { impulse: exerted.impulses[row], turn: exerted.turns[row] };
+        let is_nothing = |push: &Push| *push == Push::default();
+        if journal.holds[row].path != Path::Free || !is_nothing(&push) || !is_nothing(&journal.frictions[row])
+        {
+            journal.book_row(bodies, row, (push, exerted.centers[row], exerted.time));
         }
-        journal.rebounds.clear();
-        exerted.time = 0.0;
     }
-    journal.exerted = exerted;
+    journal.rebounds.clear();
     bodies.journal = Some(journal);
 }
 
@@ -79,6 +87,7 @@ pub(crate) fn captured(bodies: &mut Bodies, row: usize, [impulse, turn]: [DVec3;
     if let Some(journal) = bodies.journal.as_deref_mut() {
         // What nothing pushes along keeps its velocity.
         let impulse = if bodies.constants[row].inverse_mass > 0.0 { impulse } else { DVec3::ZERO };
+        journal.holds[row].is_captured = true;
         journal.captures[row] = Push { impulse, turn };
     }
 }
@@ -88,78 +97,83 @@ impl Journal {
     /// has it at hand: causes add up body by body as the whole does, so that no contact has to be gone through again.
     #[inline]
     pub fn note_causes(&mut self, wrench: &Wrench, centers: [DVec3; 2], bounces: bool) {
-        if let Ok(sides) = self.frictions.get_disjoint_mut(wrench.rows()) {
-            add_sides(sides, wrench, wrench.across(), centers);
-        }
+        let ([a, b], [push_a, push_b]) = (wrench.rows(), sides(wrench, wrench.across(), centers));
+        self.frictions[a] += push_a;
+        self.frictions[b] += push_b;
         if bounces {
-            self.rebounds.resize(self.frictions.len(), Push::default());
-            if let Ok(sides) = self.rebounds.get_disjoint_mut(wrench.rows()) {
-                add_sides(sides, wrench, wrench.normal(), centers);
-            }
+            self.note_rebound(wrench, centers);
         }
+    }
+
+    #[inline(never)]
+    fn note_rebound(&mut self, wrench: &Wrench, centers: [DVec3; 2]) {
+        self.rebounds.resize(self.holds.len(), Push::default());
+        let ([a, b], [push_a, push_b]) = (wrench.rows(), sides(wrench, wrench.normal(), centers));
+        self.rebounds[a] += push_a;
+        self.rebounds[b] += push_b;
     }
 
     /// Books what contacts and rest capture have given to the body of a row.
     #[inline]
-    fn book_row(&mut self, bodies: &Bodies, row: usize, exerted: &Exerted) {
+    fn book_row(&mut self, bodies: &Bodies, row: usize, (push, center, time): (Push, DVec3, f64)) {
         let friction = std::mem::take(&mut self.frictions[row]);
-        let capture = std::mem::take(&mut self.captures[row]);
-        let push = Push { impulse: exerted.impulses[row], turn: exerted.turns[row] };
-        let (center, rate) = (exerted.centers[row], 1.0 / exerted.time);
-        let (constants, passage) = (&bodies.constants[row], self.passages[row]);
-        let is_led = self.paths[row] != Path::Free;
-        if !is_led && (row == WORLD_ROW || constants.is_movable()) {
+        let hold = &mut self.holds[row];
+        let is_led = hold.path != Path::Free;
+        // Whoever is held in the next substep will be told so.
+        hold.path = Path::Free;
+        let is_captured = std::mem::take(&mut hold.is_captured);
+        let is_regular = is_led && hold.is_regular;
+        if !is_led && (row == WORLD_ROW || bodies.constants[row].is_movable()) {
             // The ground, and what sleeps: nothing moves along there, so that there is no work.
             self.posts.fixed.add(-push.impulse, -push.moment(center));
             return;
         }
+        let led = is_led.then(|| self.passages[row].motion(time));
+        let mut motion = led.unwrap_or_default();
         let mut got = Residual::default();
-        if is_led {
-            let work = capture.along(&passage) * rate;
-            got = Residual { linear: capture.impulse, angular: capture.moment(center), energy: work };
-            self.posts.fixed.add(got.linear, got.angular);
-            self.posts.loss_rest_capture -= work;
-            self.tallies[row].artefacts[CAPTURE] += work;
+        if is_regular {
+            got = push.gives(center, &motion);
         }
-        let mut driven = passage;
-        if is_led && constants.is_regular() {
-            got.linear += push.impulse;
-            got.angular += push.moment(center);
-            got.energy += push.along(&passage) * rate;
-        } else {
-            driven = self.book_driven(bodies, row, (push, center, exerted.time));
+        if is_captured {
+            let given = self.captures[row].gives(center, &motion);
+            self.posts.fixed.add(given.linear, given.angular);
+            self.posts.loss_rest_capture -= given.energy;
+            self.tallies[row].artefacts[CAPTURE] += given.energy;
+            got += given;
         }
         self.tallies[row].get(got.linear, got.angular, got.energy);
-        self.book_works(row, (push, friction), (&driven, rate));
+        if !is_regular {
+            motion = self.book_driven(bodies, (row, led), (push, center));
+        }
+        self.book_works(row, (push, friction), &motion);
     }
 
     /// Books what contacts give to what is kinematic, or has an infinite mass or inertia: what it does not take goes to the account of
-    /// what is driven. Returns the passage along which they worked.
+    /// what is driven. `led` is how the body moves on a path that contacts have set it on; returns how it moves with what drives it.
     fn book_driven(
         &mut self,
         bodies: &Bodies,
-        row: usize,
-        (push, center, time): (Push, DVec3, f64),
-    ) -> Passage {
+        (row, led): (usize, Option<Motion>),
+        (push, center): (Push, DVec3),
+    ) -> Motion {
         let Push { impulse, turn } = push;
-        let (state, constants, passage) = (&bodies.states[row], &bodies.constants[row], self.passages[row]);
-        let is_led = self.paths[row] != Path::Free;
-        let rotation = if is_led { self.rotations[row] } else { state.rotation };
-        let mut driven = passage;
-        driven.turn += constants.driven_velocity(rotation) * time;
+        let (state, constants) = (&bodies.states[row], &bodies.constants[row]);
+        let rotation = if led.is_some() { self.rotations[row] } else { state.rotation };
+        let mut driven = led.unwrap_or_default();
+        driven.spin += constants.driven_velocity(rotation);
         if constants.inverse_mass == 0.0 {
-            driven.way = state.velocity * time;
+            driven.velocity = state.velocity;
         }
-        let work = push.along(&driven) / time;
-        if !is_led {
+        let work = push.work(&driven);
+        let Some(motion) = led else {
             self.posts.kinematic.add(-impulse, -push.moment(center));
             self.posts.work_kinematic -= work;
             return driven;
-        }
+        };
         let taken = constants.turning_part(rotation, turn);
-        let (mut linear, mut kept) = (impulse, taken.dot(passage.turn) / time);
+        let (mut linear, mut kept) = (impulse, taken.dot(motion.spin));
         if constants.inverse_mass > 0.0 {
-            kept += impulse.dot(passage.way) / time;
+            kept += impulse.dot(motion.velocity);
         } else {
             self.posts.kinematic.add(-impulse, -center.cross(impulse));
             linear = DVec3::ZERO;
@@ -173,12 +187,12 @@ impl Journal {
     /// Books the work that contacts do on the body of a row, cause by cause: of what they give together, `friction` is one part, what would
     /// bounce another one.
     #[inline]
-    fn book_works(&mut self, row: usize, (push, friction): (Push, Push), (passage, rate): (&Passage, f64)) {
+    fn book_works(&mut self, row: usize, (push, friction): (Push, Push), motion: &Motion) {
         let normal = Push { impulse: push.impulse - friction.impulse, turn: push.turn - friction.turn };
-        self.posts.loss_friction -= friction.along(passage) * rate;
-        let mut work = normal.along(passage) * rate;
+        self.posts.loss_friction -= friction.work(motion);
+        let mut work = normal.work(motion);
         if let Some(rebound) = self.rebounds.get(row) {
-            let captured = rebound.along(passage) * rate;
+            let captured = rebound.work(motion);
             self.posts.loss_rest_capture -= captured;
             self.tallies[row].artefacts[CAPTURE] += captured;
             work -= captured;
@@ -194,7 +208,7 @@ pub(crate) fn kept_to_plan(bodies: &mut Bodies, row: usize, [turn, wanted]: [DVe
         return;
     }
     let (state, constants) = (&bodies.states[row], &bodies.constants[row]);
-    let spin = journal.axes[row].spin(constants, state.rotation, state.angular_momentum - 0.5 * turn);
+    let spin = constants.free_spin(state.rotation, state.angular_momentum - 0.5 * turn);
     let tally = &mut journal.tallies[row];
     journal.posts.integration += turn.dot(spin);
     tally.get_artefact(INTEGRATION, turn.dot(spin));
@@ -228,9 +242,8 @@ pub(crate) fn shifted(bodies: &mut Bodies, wrench: &Wrench, inverse_masses: [f64
 pub(crate) fn pushed_out(bodies: &mut Bodies, row: usize, before: &RigidState) {
     let Some(journal) = bodies.journal.as_deref_mut() else { return };
     let (after, constants) = (&bodies.states[row], &bodies.constants[row]);
-    let (axes, momentum) = (&mut journal.axes[row], after.angular_momentum);
-    let start = axes.spin_energy(constants, before.rotation, momentum);
-    let mut energy = axes.spin_energy(constants, after.rotation, momentum) - start;
+    let [start, end] = [before, after].map(|it| constants.spin_energy(it.rotation, after.angular_momentum));
+    let mut energy = end - start;
     let tally = &mut journal.tallies[row];
     if constants.inverse_mass > 0.0 {
         let way = after.position - before.position;

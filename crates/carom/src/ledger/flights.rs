@@ -8,7 +8,8 @@
 //! velocity from ω to ω' at one orientation does the work `½J·(ω + ω')`; while the body turns nothing acts, so that what its
 //! energy changes by meanwhile is the integrator's.
 
-use super::journal::{INTEGRATION, Journal, Passage, Path};
+use super::journal::{Hold, INTEGRATION, Journal, Passage, Path};
+use super::plain::{PlainFlight, is_plain};
 use crate::bodies::Bodies;
 use crate::flight::{Constants, Influence, RigidState, mean_center};
 use crate::math::{DVec3, decay_fractions};
@@ -28,20 +29,26 @@ struct Flight<'a> {
     acts: bool,
 }
 
-/// Books what the body of `row`, which had the state `before`, did within `time` seconds to get to its own.
-pub(crate) fn flown(bodies: &mut Bodies, row: usize, before: &RigidState, time: f64) {
+/// Books what the body of `row` does within `time` seconds to get from its own state to the one `after`.
+pub(crate) fn flown(bodies: &mut Bodies, row: usize, after: &RigidState, time: f64) {
     let Some(journal) = bodies.journal.as_deref_mut() else { return };
-    let (constants, influence) = (&bodies.constants[row], &bodies.influences[row]);
+    let (before, constants, influence) =
+        (&bodies.states[row], &bodies.constants[row], &bodies.influences[row]);
+    let Hold { path, is_plain, .. } = journal.holds[row];
+    if path == Path::Steady && is_plain {
+        let flight = PlainFlight { before, after, constants, influence, time };
+        if flight.book(journal, row) {
+            return;
+        }
+    }
     if !constants.is_movable() {
         return;
     }
-    let path = journal.paths[row];
     if path == Path::Free && only_falls(constants, influence, journal.gravity) {
         journal.falls[row].add(mean_center(before, constants, influence, time), time);
-        let (momentum, arrival) = (before.angular_momentum, bodies.states[row].rotation);
+        let (momentum, arrival) = (before.angular_momentum, after.rotation);
         if !constants.is_isotropic() && momentum != DVec3::ZERO {
-            let start = journal.axes[row].spin_energy(constants, before.rotation, momentum);
-            let end = journal.axes[row].spin_energy(constants, arrival, momentum);
+            let [start, end] = [before.rotation, arrival].map(|it| constants.spin_energy(it, momentum));
             journal.turned(row, constants, end - start);
         }
         return;
@@ -49,7 +56,7 @@ pub(crate) fn flown(bodies: &mut Bodies, row: usize, before: &RigidState, time: 
     let (push, torque) = bodies.forces.of(row);
     let flight = Flight {
         before,
-        after: &bodies.states[row],
+        after,
         constants,
         influence,
         time,
@@ -63,11 +70,7 @@ pub(crate) fn flown(bodies: &mut Bodies, row: usize, before: &RigidState, time: 
             Path::Kicked => false,
         },
     };
-    if flight.is_plain() {
-        flight.book_plain(journal, row);
-    } else {
-        flight.book(journal, row);
-    }
+    flight.book(journal, row);
 }
 
 /// Whether there is something to book where a body only drifts along: contacts that ask for its way, forces that have cancelled
@@ -76,7 +79,7 @@ pub(crate) fn flown(bodies: &mut Bodies, row: usize, before: &RigidState, time: 
 pub(crate) fn minds_drifting(bodies: &Bodies, row: usize) -> bool {
     let Some(journal) = bodies.journal.as_deref() else { return false };
     journal.gravity != DVec3::ZERO
-        || journal.paths[row] != Path::Free
+        || journal.holds[row].path != Path::Free
         || bodies.forces.of(row) != (DVec3::ZERO, DVec3::ZERO)
 }
 
@@ -103,31 +106,6 @@ pub(super) fn weight(constants: &Constants, gravity: DVec3) -> DVec3 {
 }
 
 impl Flight<'_> {
-    /// Whether contacts and gravity alone act on it, evenly, and it turns about all axes alike: so much of what rests.
-    #[inline]
-    fn is_plain(&self) -> bool {
-        let constants = self.constants;
-        self.path == Path::Steady
-            && constants.is_isotropic()
-            && constants.inverse_mass > 0.0
-            && constants.linear_damping == 0.0
-            && constants.angular_damping == 0.0
-            && self.push == DVec3::ZERO
-            && self.torque == DVec3::ZERO
-    }
-
-    /// The same as [`Flight::book`] does where that is all: how long gravity acts and where, and the passage along which contacts work. However
-    /// it is turned, the mean of its angular velocities is that of the mean of its angular momenta.
-    #[inline]
-    fn book_plain(&self, journal: &mut Journal, row: usize) {
-        let (before, after, constants, time) = (self.before, self.after, self.constants, self.time);
-        journal.falls[row].add(mean_center(before, constants, self.influence, time), time);
-        let passage = &mut journal.passages[row];
-        passage.way += after.position - before.position;
-        let momentum = 0.5 * (before.angular_momentum + after.angular_momentum);
-        passage.turn += constants.free_spin(before.rotation, momentum) * time;
-    }
-
     #[inline(never)]
     fn book(&self, journal: &mut Journal, row: usize) {
         if self.constants.inverse_mass > 0.0 {
@@ -205,12 +183,12 @@ impl Flight<'_> {
         } else {
             1.0
         };
-        let departure = journal.axes[row].at(constants, before.rotation);
+        let departure = &constants.principal_axes(before.rotation);
         let first = constants.spin_about(departure, before.angular_momentum + momentum);
-        let start = constants.spin_energy(departure, momentum);
-        let arrival = journal.axes[row].at(constants, after.rotation);
+        let start = constants.spin_energy_about(departure, momentum);
+        let arrival = &constants.principal_axes(after.rotation);
         let last = constants.spin_about(arrival, momentum * left + after.angular_momentum);
-        let energy = constants.spin_energy(arrival, momentum);
+        let energy = constants.spin_energy_about(arrival, momentum);
         if !constants.is_isotropic() {
             journal.turned(row, constants, energy - start);
         }
@@ -223,11 +201,10 @@ impl Flight<'_> {
         }
 
         let by_user = self.acts && self.torque != DVec3::ZERO;
-        if self.path != Path::Steady && !by_user {
-            return;
-        }
         let turn = (first + last) * (0.25 * time);
-        journal.passages[row].turn += turn;
+        if self.path == Path::Steady {
+            journal.passages[row].turn += turn;
+        }
         if by_user {
             let impulse = self.torque * time;
             posts.external.angular += impulse;
@@ -266,17 +243,21 @@ fn sector(x: f64) -> f64 {
 pub(crate) fn set_out(bodies: &mut Bodies, row: usize, before: &RigidState, (time, steady): (f64, bool)) {
     let Some(journal) = bodies.journal.as_deref_mut() else { return };
     let (after, constants) = (&bodies.states[row], &bodies.constants[row]);
-    if !constants.is_regular() {
+    let hold = &mut journal.holds[row];
+    hold.is_regular = constants.is_regular();
+    if !hold.is_regular {
         journal.rotations[row] = before.rotation;
     }
     if steady {
-        journal.paths[row] = Path::Steady;
+        hold.path = Path::Steady;
+        hold.is_plain = is_plain(constants) && !bodies.forces.act_on(row);
+        journal.passages[row] = Passage::default();
         return;
     }
     let way = (before.velocity + after.velocity) * (0.5 * time);
     let momentum = 0.5 * (before.angular_momentum + after.angular_momentum);
-    let turn = journal.axes[row].spin(constants, before.rotation, momentum) * time;
-    journal.paths[row] = Path::Kicked;
+    let turn = constants.free_spin(before.rotation, momentum) * time;
+    hold.path = Path::Kicked;
     journal.passages[row] = Passage { way, turn };
 
     let (posts, tally) = (&mut journal.posts, &mut journal.tallies[row]);

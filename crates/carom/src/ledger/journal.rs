@@ -1,7 +1,6 @@
 //! What is noted while a step goes on.
 
-use super::axes::Axes;
-use super::contacts::{Exerted, Push};
+use super::contacts::Push;
 use super::flights::heavy_mass;
 use super::{Posts, Residual, Stock};
 use crate::bodies::Bodies;
@@ -14,38 +13,36 @@ use std::ops::AddAssign;
 pub(crate) struct Journal {
     pub gravity: DVec3,
     pub posts: Posts,
-    /// Row by row: what each body had, and at the end of a step has; what has changed it, where its path leads.
+    /// Row by row: what each body had, and at the end of a step has; what has changed it, what contacts do to it.
     start: Vec<Stock>,
     end: Vec<Stock>,
     pub tallies: Vec<Tally>,
     pub falls: Vec<Fall>,
-    pub paths: Vec<Path>,
+    pub holds: Vec<Hold>,
+    /// Where contacts lead what they hold, from when it sets out; and what rest capture gives to whom it captures.
     pub passages: Vec<Passage>,
+    pub captures: Vec<Push>,
     /// Orientations when they set out of those of which something is infinite.
     pub rotations: Vec<DQuat>,
-    /// Row by row, as long as bodies are as the last step left them.
-    pub axes: Vec<Axes>,
+    /// Of the step that is over, the row whose body got most energy from an artefact, and how much, J.
+    most: (usize, f64),
     /// Sums of what the bodies had at the end of the last step, with and without directions.
     sum: Stock,
     gross: [f64; 3],
     /// Whether bodies still have what they had then: nobody has been at them.
     is_known: bool,
-    /// What contacts exert in the present substep.
-    pub exerted: Exerted,
-    /// Row by row, the part of it that is friction and twist: nothing, where no substep is under way.
+    /// Row by row, what friction and twist give in the present substep, as a part of what contacts do.
     pub frictions: Vec<Push>,
-    /// What rest capture gives besides.
-    pub captures: Vec<Push>,
-    /// Row by row, what contacts give along their normals that bounce when struck faster; empty if there are none.
+    /// Row by row, what contacts give along their normals in the present substep that bounce when struck faster; empty if there are none.
     pub rebounds: Vec<Push>,
     /// A body was lost.
     lost: bool,
 }
 
-/// What has changed one body.
+/// What has changed one body in the present step.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Tally {
-    pub explained: Residual,
+    explained: Residual,
     /// Energy that each of the [`ARTEFACTS`] gave, J.
     pub artefacts: [f64; ARTEFACTS.len()],
 }
@@ -93,6 +90,7 @@ pub(crate) const SLEEP: usize = 3;
 
 impl Tally {
     /// Linear and angular momentum (about the origin), and energy, that the body got.
+    #[inline]
     pub fn get(&mut self, linear: DVec3, angular: DVec3, energy: f64) {
         self.explained.linear += linear;
         self.explained.angular += angular;
@@ -101,23 +99,50 @@ impl Tally {
 
     /// The most energy that any of the [`ARTEFACTS`] gave or took, J.
     #[inline]
-    pub fn artefact(&self) -> f64 {
+    fn artefact(&self) -> f64 {
         self.artefacts.iter().fold(0.0, |most, energy| most.max(energy.abs()))
     }
 
     /// Energy that it got from one of the [`ARTEFACTS`].
+    #[inline]
     pub fn get_artefact(&mut self, artefact: usize, energy: f64) {
         self.explained.energy += energy;
         self.artefacts[artefact] += energy;
     }
 }
 
-/// What a body that contacts hold does in the present substep; nothing, where they do not.
+/// What a body does that contacts hold, in the present substep.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Hold {
+    pub path: Path,
+    /// Whether its mass and its inertia are finite; and whether besides, contacts and gravity alone act on it.
+    pub is_regular: bool,
+    pub is_plain: bool,
+    /// Whether rest capture gives something to it, too.
+    pub is_captured: bool,
+}
+
+/// Way (m) and turn (rad) along which a force of contacts and its torque work, if they act evenly.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Passage {
-    /// Way (m) and turn (rad) along which a force of contacts and its torque work, if they act evenly.
     pub way: DVec3,
     pub turn: DVec3,
+}
+
+impl Passage {
+    /// How a body moved in the mean that took so long (s) for it.
+    #[inline]
+    pub fn motion(&self, time: f64) -> Motion {
+        let rate = 1.0 / time;
+        Motion { velocity: self.way * rate, spin: self.turn * rate }
+    }
+}
+
+/// How a body moves in the mean while contacts act on it: m/s, rad/s.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Motion {
+    pub velocity: DVec3,
+    pub spin: DVec3,
 }
 
 /// How forces act on a body.
@@ -152,75 +177,80 @@ impl Journal {
     pub fn open(&mut self, bodies: &Bodies, gravity: DVec3) -> Stock {
         let rows = bodies.states.len();
         self.lost = false;
-        if self.is_known && self.gravity == gravity && self.end.len() == rows {
-            std::mem::swap(&mut self.start, &mut self.end);
-        } else {
-            self.gravity = gravity;
-            self.axes.clear();
-            self.axes.resize(rows, Axes::UNKNOWN);
-            self.take_stock(bodies);
-            std::mem::swap(&mut self.start, &mut self.end);
-        }
-        self.is_known = false;
         self.tallies.clear();
         self.tallies.resize(rows, Tally::default());
         self.falls.clear();
         self.falls.resize(rows, Fall::default());
-        self.paths.resize(rows, Path::Free);
+        if self.is_known && self.gravity == gravity && self.end.len() == rows {
+            std::mem::swap(&mut self.start, &mut self.end);
+        } else {
+            self.gravity = gravity;
+            self.look(bodies);
+            std::mem::swap(&mut self.start, &mut self.end);
+        }
+        self.is_known = false;
+        self.holds.resize(rows, Hold::default());
         self.passages.resize(rows, Passage::default());
-        self.rotations.resize(rows, DQuat::IDENTITY);
-        self.frictions.resize(rows, Push::default());
         self.captures.resize(rows, Push::default());
+        self.frictions.resize(rows, Push::default());
+        self.rotations.resize(rows, DQuat::IDENTITY);
         self.sum
     }
 
     /// Ends a step that took so long (s).
     pub fn close(&mut self, bodies: &Bodies, step: f64) -> Closing {
         let before = self.gross;
-        let pulls = self.take_stock(bodies).map(|pull| pull * step);
-        self.book_falls(bodies);
+        let (fall, pulls) = self.look(bodies);
+        let Momentum { linear, angular } = fall.momentum(self.gravity);
+        self.posts.gravity.add(linear, angular);
         let mut closing =
             Closing { end: self.sum, posts: std::mem::take(&mut self.posts), gross: before, lost: self.lost };
         add_to(&mut closing.gross, self.gross);
-        add_to(&mut closing.gross, pulls);
+        add_to(&mut closing.gross, pulls.map(|pull| pull * step));
         self.is_known = true;
         closing
     }
 
-    /// Looks at what all bodies have now; returns how gravity pulls at them without directions: N, N·m, and nothing.
-    fn take_stock(&mut self, bodies: &Bodies) -> [f64; 3] {
+    /// Looks at what all bodies have now, and at what has become of them. Returns how gravity has acted on all their masses, and how it
+    /// pulls at them without directions: N, N·m, and nothing.
+    fn look(&mut self, bodies: &Bodies) -> (Fall, [f64; 3]) {
         let (gravity, pull) = (self.gravity, self.gravity.length());
-        let (mut sum, mut gross, mut pulls) = (Stock::default(), [0.0; 3], [0.0; 3]);
+        let (mut all, mut sum, mut gross, mut pulls) =
+            (Fall::default(), Stock::default(), [0.0; 3], [0.0; 3]);
+        self.most = (0, 0.0);
         self.end.clear();
-        let rows = bodies.states.iter().zip(&bodies.constants).zip(&mut self.axes);
-        self.end.extend(rows.map(|((state, constants), axes)| {
-            let stock = Stock::of(state, constants, (gravity, axes));
-            sum += stock;
-            let distance = state.position.length();
-            add_to(&mut gross, stock.sizes(distance));
-            let pull = heavy_mass(constants).abs() * pull;
-            add_to(&mut pulls, [pull, pull * distance, 0.0]);
-            stock
-        }));
+        self.end.reserve(bodies.states.len());
+        let bodies = bodies.states.chunks(BATCH).zip(bodies.constants.chunks(BATCH));
+        let noted = self.tallies.chunks(BATCH).zip(self.falls.chunks(BATCH));
+        for ((states, constants), (tallies, falls)) in bodies.zip(noted) {
+            // Sums of sums are rounded less than one long one.
+            let mut batch = Fall::default();
+            let bodies = states.iter().zip(constants);
+            for ((state, constants), (tally, fall)) in bodies.zip(tallies.iter().zip(falls)) {
+                let (stock, mass) = (Stock::of(state, constants, gravity), heavy_mass(constants));
+                batch += fall.of_mass(mass);
+                sum += stock;
+                let distance = state.position.length();
+                add_to(&mut gross, stock.sizes(distance));
+                let pull = mass.abs() * pull;
+                add_to(&mut pulls, [pull, pull * distance, 0.0]);
+                let artefact = tally.artefact();
+                if artefact > self.most.1 {
+                    self.most = (self.end.len(), artefact);
+                }
+                self.end.push(stock);
+            }
+            all += batch;
+        }
         (self.sum, self.gross) = (sum, gross);
-        pulls
+        (all, pulls)
     }
 
-    /// Books what gravity has given to bodies in the step. Sums of sums are rounded less than one long one.
-    fn book_falls(&mut self, bodies: &Bodies) {
-        if self.gravity == DVec3::ZERO {
-            return;
-        }
-        let mut all = Fall::default();
-        for (constants, falls) in bodies.constants.chunks(BATCH).zip(self.falls.chunks(BATCH)) {
-            let mut sum = Fall::default();
-            for (constants, fall) in constants.iter().zip(falls) {
-                sum += fall.of_mass(heavy_mass(constants));
-            }
-            all += sum;
-        }
-        let Momentum { linear, angular } = all.momentum(self.gravity);
-        self.posts.gravity.add(linear, angular);
+    /// The row whose body got most energy from an artefact in the step that is over, and what it got.
+    pub fn most_artefact(&self) -> Option<(usize, &Tally)> {
+        let (row, amount) = self.most;
+        let tally = self.tallies.get(row).filter(|_| amount > 0.0);
+        tally.map(|tally| (row, tally))
     }
 
     /// Row by row, what no cause explains of the step that is over.
@@ -246,9 +276,7 @@ impl Journal {
             self.start.swap_remove(row);
             self.tallies.swap_remove(row);
             self.falls.swap_remove(row);
-            self.paths.swap_remove(row);
-            self.passages.swap_remove(row);
-            self.axes.swap_remove(row);
+            self.holds.swap_remove(row);
         }
     }
 

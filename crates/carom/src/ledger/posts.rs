@@ -67,6 +67,14 @@ impl Residual {
     }
 }
 
+impl AddAssign for Residual {
+    fn add_assign(&mut self, other: Self) {
+        self.linear += other.linear;
+        self.angular += other.angular;
+        self.energy += other.energy;
+    }
+}
+
 impl Sub for Residual {
     type Output = Self;
 

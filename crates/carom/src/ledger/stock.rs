@@ -1,7 +1,6 @@
 //! What bodies have.
 
 use super::Residual;
-use super::axes::Axes;
 use super::flights::heavy_mass;
 use crate::bodies::Bodies;
 use crate::flight::{Constants, RigidState};
@@ -23,17 +22,17 @@ pub struct Stock {
 impl Stock {
     /// What the body of a row has.
     pub(crate) fn of_row(bodies: &Bodies, row: usize, gravity: DVec3) -> Self {
-        Self::of(&bodies.states[row], &bodies.constants[row], (gravity, &mut Axes::UNKNOWN.clone()))
+        Self::of(&bodies.states[row], &bodies.constants[row], gravity)
     }
 
     /// What a body has in this state.
     #[inline]
-    pub(super) fn of(state: &RigidState, constants: &Constants, (gravity, axes): (DVec3, &mut Axes)) -> Self {
+    pub(super) fn of(state: &RigidState, constants: &Constants, gravity: DVec3) -> Self {
         let mut stock = Stock::default();
         if !constants.is_movable() {
             return stock;
         }
-        stock.energy.kinetic = axes.spin_energy(constants, state.rotation, state.angular_momentum);
+        stock.energy.kinetic = constants.spin_energy(state.rotation, state.angular_momentum);
         stock.momentum.angular = state.angular_momentum;
         if constants.inverse_mass > 0.0 {
             let linear = constants.mass() * state.velocity;

@@ -1,7 +1,7 @@
 //! Which step and which body fitted worst.
 
 use super::Books;
-use super::journal::{ARTEFACTS, Journal, Tally};
+use super::journal::{ARTEFACTS, Journal};
 use crate::bodies::{Bodies, BodyId};
 use std::fmt;
 
@@ -58,11 +58,11 @@ impl Worst {
         (step, time): (u64, f64),
         present: Option<Worst>,
     ) -> Option<Self> {
-        let (row, amount) = largest(journal.tallies.iter().map(Tally::artefact))?;
+        let Some((row, tally)) = journal.most_artefact() else { return present };
+        let (post, amount) = largest(tally.artefacts.iter().map(|it| it.abs()))?;
         if !outweighs(amount, &present) {
             return present;
         }
-        let (post, _) = largest(journal.tallies[row].artefacts.iter().map(|it| it.abs()))?;
         let relative = amount / (books.throughput[2] + f64::MIN_POSITIVE);
         let body = body_of(bodies, row);
         Some(Self { post: ARTEFACTS[post], step, time, body, amount, relative, weight: amount })

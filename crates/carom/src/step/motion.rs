@@ -102,8 +102,8 @@ fn arrive(bodies: &mut Bodies, row: usize, state: &RigidState, time: f64) {
     if bodies.journal.is_none() && bodies.plans[row].is_none() {
         bodies.states[row] = *state;
     } else {
+        flown(bodies, row, state, time - bodies.clocks[row]);
         let before = std::mem::replace(&mut bodies.states[row], *state);
-        flown(bodies, row, &before, time - bodies.clocks[row]);
         keep_to_plan(bodies, row, &before, time);
     }
     bodies.clocks[row] = time;

@@ -139,6 +139,11 @@ impl Rest {
         std::iter::successors(used(pair.first_contact), next)
     }
 
+    /// Tells the ledger what contacts have exerted in the last substep.
+    pub fn settle(&mut self, bodies: &mut Bodies) {
+        self.work.settle(bodies);
+    }
+
     /// Lets go of the contacts of a pair.
     pub fn drop_contacts(&mut self, pair: &Pair) {
         let contacts: Few = self.contacts(pair).collect();

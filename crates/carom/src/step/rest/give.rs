@@ -11,7 +11,7 @@ use super::{Rest, Span};
 use crate::bodies::{Bodies, WORLD_ROW};
 use crate::flight::{Influence, mean_center};
 use crate::impacts::time_of_impact::RestLaw;
-use crate::ledger::contacts::{Exerted, captured};
+use crate::ledger::contacts::captured;
 use crate::ledger::flights::set_out;
 use crate::math::DVec3;
 use crate::step::motion::{Plan, set_pace};
@@ -81,23 +81,17 @@ impl Rest {
             follow(bodies, &body, [change.velocity, momentum], span);
             set_pace(bodies, row, span.until);
         }
-        if let Some(journal) = &mut bodies.journal {
-            let Exerted { impulses, turns, centers, time } = &mut journal.exerted;
-            std::mem::swap(impulses, &mut work.impulses);
-            std::mem::swap(turns, &mut work.turns);
-            std::mem::swap(centers, &mut work.centers);
-            *time = substep;
-        }
+        work.unsettled = substep;
     }
 
     /// Adds up how the contacts turn each body.
     fn turn(&self, bodies: &mut Bodies, work: &mut Work) {
         for wrench in &work.wrenches {
-            let push = [wrench.impulse(), wrench.moment()];
-            let centers = wrench.rows().map(|row| work.centers[row]);
-            for (row, turn) in wrench.rows().into_iter().zip(wrench.turns(push, centers)) {
-                work.turns[row] += turn;
-            }
+            let (push, [a, b]) = ([wrench.impulse(), wrench.moment()], wrench.rows());
+            let centers = [work.centers[a], work.centers[b]];
+            let [turn_a, turn_b] = wrench.turns(push, centers);
+            work.turns[a] += turn_a;
+            work.turns[b] += turn_b;
             if let Some(journal) = &mut bodies.journal {
                 journal.note_causes(wrench, centers, self.manners[wrench.contact.index()].bounces);
             }

@@ -5,7 +5,6 @@ use super::{Rest, Span};
 use crate::bodies::Bodies;
 use crate::flight::Influence;
 use crate::impacts::time_of_impact::RestLaw;
-use crate::ledger::contacts::settle;
 use crate::math::DVec3;
 use crate::solver::direct::Mobility;
 use crate::solver::graph::Effort;
@@ -48,7 +47,7 @@ impl Rest {
         let mut work = std::mem::take(&mut self.work);
         copy(&mut work.rows, self.rows.held());
         advance_all(bodies, work.rows.iter().copied(), span.from, self.graph.pool());
-        settle(bodies);
+        work.settle(bodies);
         if !work.rows.is_empty() {
             self.renew_moved(bodies, pairs, &work.rows, (law, span));
             self.free(bodies, law, &mut work);

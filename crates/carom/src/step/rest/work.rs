@@ -2,6 +2,8 @@
 //!
 //! Kept from substep to substep, so that nothing is asked of the allocator while all lies still.
 
+use crate::bodies::Bodies;
+use crate::ledger::contacts::{Exerted, settle};
 use crate::math::DVec3;
 use crate::room::Room;
 use crate::solver::graph::Wrench;
@@ -29,6 +31,8 @@ pub(super) struct Work {
     pub turns: Vec<DVec3>,
     pub centers: Vec<DVec3>,
     pub changes: Vec<Change>,
+    /// For how long (s) contacts have exerted this and nobody has told the ledger yet.
+    pub unsettled: f64,
 }
 
 /// What a substep does to a body's velocity, m/s.
@@ -40,6 +44,15 @@ pub(super) struct Change {
 }
 
 impl Work {
+    /// Tells the ledger, if there is one, what contacts have exerted in the substep that is over.
+    pub fn settle(&mut self, bodies: &mut Bodies) {
+        let time = std::mem::take(&mut self.unsettled);
+        if time > 0.0 {
+            let (impulses, turns, centers) = (&self.impulses, &self.turns, &self.centers);
+            settle(bodies, &Exerted { impulses, turns, centers, time });
+        }
+    }
+
     /// Makes room for `count` rows, of which nothing is known yet.
     pub fn begin(&mut self, count: usize) {
         fill(&mut self.rough_pushes, count, 0.0);
