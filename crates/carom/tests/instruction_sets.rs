@@ -182,12 +182,12 @@ const THREADS: [u32; 3] = [1, 2, 4];
 
 /// The hashes of states and events of [pile, mesh, gas, cradle, stack, crowd].
 const EXPECTED: [[u64; 2]; 6] = [
-    [0x0843_3695_b42f_796d, 0x9532_3b73_4f77_6be3],
-    [0xc897_421b_1541_c834, 0x4cde_a7a7_540b_c88c],
+    [0xa4b3_3559_fcc9_4128, 0x9890_e6d6_5200_7f38],
+    [0x50a9_3213_b4ac_e9c9, 0xb30b_7829_8a2b_318a],
     [0xb7c9_a597_8de9_22c8, 0x12d9_d339_e94d_7830],
     [0x495a_c80e_1b79_9fde, 0x046b_b65b_a085_2bf1],
-    [0x0974_f0f4_0a04_40a5, 0xbb5c_34bb_ee40_06d7],
-    [0xe7f7_a0bd_9951_7bde, 0x4add_b67f_787d_eaa3],
+    [0xa986_b83d_b84e_1766, 0x96d0_827f_5252_f2d3],
+    [0xf082_d937_5c4a_a37a, 0xa754_c9c4_8f5c_5c1e],
 ];
 
 #[test]

@@ -66,8 +66,6 @@ pub(crate) struct Rest {
     work: Work,
     /// Whether each body's contacts are to be renewed.
     has_moved: Vec<bool>,
-    /// Substeps so far.
-    substeps: usize,
 }
 
 /// Contacts of a pair: most touch in no more manifolds.
@@ -93,7 +91,6 @@ impl Rest {
             manners: Vec::new(),
             work: Work::default(),
             has_moved: Vec::new(),
-            substeps: 0,
         }
     }
 

@@ -92,7 +92,6 @@ mod tests {
     use crate::solver::bundle::field;
     use crate::solver::tests::Random;
     use crate::{Body, Shape, World};
-    use std::collections::BTreeMap;
 
     const STEP: f64 = 1.0 / 60.0;
 
@@ -120,12 +119,10 @@ mod tests {
         world
     }
 
-    /// As it comes to rest, something may be slow for a few steps while a contact still has it somewhere else.
     #[test]
     fn nothing_in_a_crowd_that_has_come_to_rest_is_held_by_what_it_does_not_touch() {
         for seed in 0..6 {
             let mut world = heap(&mut Random(41 + seed));
-            let mut steps_held = BTreeMap::new();
             let law = RestLaw { gravity: world.settings.gravity, substep: 0.5 * STEP, step: STEP };
             for step in 0..300 {
                 world.step_validated(STEP);
@@ -144,11 +141,7 @@ mod tests {
                     if is_pressed && is_slow {
                         let approach = Approach::of(bodies, pair.colliders, law).expect("both are there");
                         let gap = approach.separation(STEP);
-                        if gap > 4e-4 {
-                            let steps = steps_held.entry(pair.colliders).or_insert(0);
-                            *steps += 1;
-                            assert!(*steps < 60, "held over a gap of {gap} m for a second, heap {seed}");
-                        }
+                        assert!(gap < 4e-4, "held over a gap of {gap} m in step {step}, heap {seed}");
                     }
                 }
             }

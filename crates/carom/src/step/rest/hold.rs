@@ -27,7 +27,7 @@ const LIVELY: f64 = 20.0;
 /// Sweeps that every contact gets in a substep, that an island in motion may take, and contacts times sweeps that one about to
 /// rest may.
 const SWEEPS: u32 = 2;
-const IN_MOTION: u32 = 8;
+const IN_MOTION: u32 = 12;
 const BUDGET: u32 = 40_000;
 
 /// Where the sweeps change a body's velocity by less than this share of what gravity does, or contacts give it what they gave in the

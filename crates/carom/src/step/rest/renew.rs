@@ -25,11 +25,6 @@ use smallvec::SmallVec;
 const DRIFT: f64 = 5e-3;
 const FAST_DRIFT: f64 = 3e-2;
 
-/// Once in so many substeps a body's contacts are renewed if it has moved by this share since they were last: what comes to rest within
-/// [`DRIFT`] of where it was looked at would for ever lie over what it does not touch.
-const REVIEW: usize = 120;
-const REVIEW_DRIFT: f64 = 1e-3;
-
 /// In a crowd what counts is how far bodies move against each other; so far they may move together.
 const TOGETHER: f64 = 0.5;
 
@@ -175,7 +170,6 @@ impl Rest {
         at: (RestLaw, Span),
     ) {
         let _phase = profile::phase(Phase::Renew);
-        self.substeps = self.substeps.wrapping_add(1);
         let mut has_moved = std::mem::take(&mut self.has_moved);
         fill(&mut has_moved, bodies.states.len(), false);
         for &row in held {
@@ -214,17 +208,14 @@ impl Rest {
         let grain = bodies.grains[row];
         let (speed, spin) = bodies.paces[row];
         let most = |share: f64| share.clamp(DRIFT, FAST_DRIFT);
-        let [way, turn] = if self.crowds.has(row) {
+        if self.crowds.has(row) {
             self.rows.set_leash(row, most(speed * law.step / grain) * grain);
-            [TOGETHER * grain, most(0.5 * spin * law.step)]
-        } else {
-            self.rows.set_leash(row, if bodies.constants[row].is_movable() { f64::INFINITY } else { 0.0 });
-            // What is so far from where it is thought to be has its velocity wrong by no more than the rest threshold.
-            let unnoticed = law.rest_speed() / (spin * grain).max(f64::MIN_POSITIVE);
-            [most(unnoticed.min(speed * law.step / grain)) * grain, most(0.5 * unnoticed)]
-        };
-        let is_reviewed = self.substeps.wrapping_add(row).is_multiple_of(REVIEW);
-        if is_reviewed { [REVIEW_DRIFT * grain, REVIEW_DRIFT] } else { [way, turn] }
+            return [TOGETHER * grain, most(0.5 * spin * law.step)];
+        }
+        self.rows.set_leash(row, if bodies.constants[row].is_movable() { f64::INFINITY } else { 0.0 });
+        // What is so far from where it is thought to be has its velocity wrong by no more than the rest threshold.
+        let unnoticed = law.rest_speed() / (spin * grain).max(f64::MIN_POSITIVE);
+        [most(unnoticed.min(speed * law.step / grain)) * grain, most(0.5 * unnoticed)]
     }
 
     /// Renews the contacts of all these pairs.
