@@ -8,10 +8,10 @@
 //! ```
 //!
 //! ```text
-//! bodies/state.rs    what users name bodies by, and read of them
-//! bodies/record.rs   what the table keeps of a body and of its colliders
+//! bodies/state.rs        what users name bodies by, and read of them
+//! bodies/record.rs       what the table keeps of a body and of its colliders
 //! bodies/description.rs  what bodies were made from
-//! bodies/forces.rs   what users push bodies with
+//! bodies/forces.rs       what users push bodies with
 //! ```
 //!
 //! Slots are stable and named by ids; rows are dense, so a step walks them in order. An id carries the generation of

@@ -10,7 +10,7 @@
 //! Friction acts once for a contact, at the middle of the points that touch, within Coulomb's cone of their impulses; a
 //! twisting impulse about the normal stands for its distribution over them. Going through all rows again and again is projected
 //! Gauss–Seidel (Jourdan, Alart and Jean 1998; Catto 2005). In the contact frame, with
-//! the points' places seen from where friction acts, one row is 30 operations and the same for both bodies.
+//! the points' places seen from where friction acts, a point's row is some 30 operations, once for both bodies.
 //!
 //! *Books*: each impulse acts on both bodies, reversed on one; linear and angular momentum are kept to rounding.
 
