@@ -93,22 +93,28 @@ pub(crate) fn captured(bodies: &mut Bodies, row: usize, [impulse, turn]: [DVec3;
 }
 
 impl Journal {
-    /// Notes by which cause a contact exerts what it does on two bodies whose centres of mass are there, while whoever gives it to them
+    /// Notes by which cause a contact exerts what it does, `across` its normal by friction and twist, on two bodies whose centres of mass are there, while whoever gives it to them
     /// has it at hand: causes add up body by body as the whole does, so that no contact has to be gone through again.
     #[inline]
-    pub fn note_causes(&mut self, wrench: &Wrench, centers: [DVec3; 2], bounces: bool) {
-        let ([a, b], [push_a, push_b]) = (wrench.rows(), sides(wrench, wrench.across(), centers));
+    pub fn note_causes(
+        &mut self,
+        (wrench, across): (&Wrench, [DVec3; 2]),
+        centers: [DVec3; 2],
+        bounces: bool,
+    ) {
+        let ([a, b], [push_a, push_b]) = (wrench.rows(), sides(wrench, across, centers));
         self.frictions[a] += push_a;
         self.frictions[b] += push_b;
         if bounces {
-            self.note_rebound(wrench, centers);
+            let normal = [wrench.impulse() - across[0], wrench.moment() - across[1]];
+            self.note_rebound((wrench, normal), centers);
         }
     }
 
     #[inline(never)]
-    fn note_rebound(&mut self, wrench: &Wrench, centers: [DVec3; 2]) {
+    fn note_rebound(&mut self, (wrench, normal): (&Wrench, [DVec3; 2]), centers: [DVec3; 2]) {
         self.rebounds.resize(self.holds.len(), Push::default());
-        let ([a, b], [push_a, push_b]) = (wrench.rows(), sides(wrench, wrench.normal(), centers));
+        let ([a, b], [push_a, push_b]) = (wrench.rows(), sides(wrench, normal, centers));
         self.rebounds[a] += push_a;
         self.rebounds[b] += push_b;
     }
@@ -222,7 +228,7 @@ pub(crate) fn kept_to_plan(bodies: &mut Bodies, row: usize, [turn, wanted]: [DVe
 pub(crate) fn shifted(bodies: &mut Bodies, wrench: &Wrench, inverse_masses: [f64; 2]) {
     let Some(journal) = bodies.journal.as_deref_mut() else { return };
     let posts = &mut journal.posts;
-    let shift = |side: usize| wrench.normal()[0].cross(bodies.states[wrench.rows()[side]].velocity);
+    let shift = |side: usize| wrench.impulse().cross(bodies.states[wrench.rows()[side]].velocity);
     let mut account = |other: usize, shift: DVec3| {
         let row = wrench.rows()[other];
         let is_fixed = row == WORLD_ROW || bodies.constants[row].inverse_mass > 0.0;

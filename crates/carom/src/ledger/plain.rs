@@ -49,13 +49,15 @@ impl PlainFlight<'_> {
             return Some(constants.free_spin(before.rotation, momentum) * self.time);
         }
         let turn = small_turn(before.rotation, after.rotation);
-        if turn.length_squared() <= HARDLY_A_TURN * HARDLY_A_TURN {
+        let angle = turn.length_squared();
+        if angle <= HARDLY_A_TURN * HARDLY_A_TURN {
             return Some(turn);
+        } else if angle > SLIGHT_TURN * SLIGHT_TURN {
+            return None;
         }
         let kick = 0.5 * self.time * self.influence.torque;
         let middle = (before.rotation + after.rotation) * 0.5;
-        let turn = constants.turn_of_kicks(middle, [before.angular_momentum + kick, kick], self.time);
-        (turn.length_squared() <= SLIGHT_TURN * SLIGHT_TURN).then_some(turn)
+        Some(constants.turn_of_kicks(middle, [before.angular_momentum + kick, kick], self.time))
     }
 }
 

@@ -46,30 +46,27 @@ pub(crate) mod field {
 
     /// Gap up to which a point counts at all: what comes from further away strikes. Huge where contacts see to all points. m.
     pub const HORIZON: usize = SWEPT;
-    /// The least and the largest separation of all points, m.
+    /// The least separation of all points, m.
     pub const GAP: usize = SWEPT + 1;
-    pub const WIDEST: usize = SWEPT + 2;
     /// Radii of curvature where the surfaces are round, of `a` and `b`, m.
-    pub const ROUNDNESS: usize = SWEPT + 3;
+    pub const ROUNDNESS: usize = SWEPT + 2;
     /// How much closer to `b`'s idea of it than to `a`'s the place is at which impulses act, 0 to 1.
-    pub const SHARE: usize = SWEPT + 5;
+    pub const SHARE: usize = SWEPT + 4;
     /// What the bodies' drifts have moved `b` against `a` when the contact was renewed, contact frame, m.
-    pub const DRIFTED: usize = SWEPT + 6;
+    pub const DRIFTED: usize = SWEPT + 5;
     /// Twice the vector of each body's turn since its anchor when the contact was renewed, contact frame.
-    pub const TURNED_A: usize = SWEPT + 9;
-    pub const TURNED_B: usize = SWEPT + 12;
+    pub const TURNED_A: usize = SWEPT + 8;
+    pub const TURNED_B: usize = SWEPT + 11;
     /// The arms of friction when the contact was renewed.
-    pub const RENEWED_FRICTION_A: usize = SWEPT + 15;
-    pub const RENEWED_FRICTION_B: usize = SWEPT + 18;
-    /// 0 where both surfaces are round, 1 elsewhere: as one rolls over the other, it is the normal that turns.
-    pub const FOLLOWS: usize = SWEPT + 21;
+    pub const RENEWED_FRICTION_A: usize = SWEPT + 14;
+    pub const RENEWED_FRICTION_B: usize = SWEPT + 17;
     /// How much further the bodies have moved against each other since the contact was renewed than they may, m; negative as long as
     /// they have not.
-    pub const STRAY: usize = SWEPT + 22;
+    pub const STRAY: usize = SWEPT + 20;
     /// Gap from which on the contact has left, m.
-    pub const PARTING: usize = SWEPT + 23;
+    pub const PARTING: usize = SWEPT + 21;
     /// What a sweep does not read of the first point.
-    pub const POINT_APART: usize = SWEPT + 24;
+    pub const POINT_APART: usize = SWEPT + 22;
 
     /// Of a point: where it is, seen from where friction acts, along t₁ and t₂, m. With the arm of friction it is the arm of the point.
     pub const LEVER: usize = 0;
@@ -181,6 +178,13 @@ impl Bundle {
     #[inline(always)]
     pub fn has_strayed(&self, lane: usize) -> bool {
         self.lines[field::STRAY].0[lane] > 0.0
+    }
+
+    /// Whether all its points are within its horizon.
+    pub fn is_closed(&self, lane: usize) -> bool {
+        let real = (0..POINTS).filter(|&point| self.get(lane, field::of_point(point, field::MASS)) > 0.0);
+        let mut separations = real.map(|point| self.get(lane, field::of_point(point, field::SEPARATION)));
+        separations.all(|separation| separation <= self.get(lane, field::HORIZON))
     }
 
     /// Whether all its points are out of its reach.

@@ -17,7 +17,7 @@ mod wrench;
 
 pub(crate) use agree::Effort;
 pub(crate) use push_out::Limits;
-pub(crate) use wrench::Wrench;
+pub(crate) use wrench::{Wrench, Wrenches};
 
 use super::bundle::{Bundle, Lane, NO_CONTACT, field};
 use super::lanes::{LANES, Machine};
@@ -186,6 +186,11 @@ impl Graph {
     /// One of a contact's numbers.
     pub fn get(&self, id: ContactId, field: usize) -> f32 {
         self.bundle(id).map_or(0.0, |(bundle, lane)| bundle.get(lane, field))
+    }
+
+    /// Whether all points of a contact are within its horizon.
+    pub fn is_closed(&self, id: ContactId) -> bool {
+        self.bundle(id).is_none_or(|(bundle, lane)| bundle.is_closed(lane))
     }
 
     /// Whether all points of a contact are out of its reach.

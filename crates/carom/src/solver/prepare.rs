@@ -133,8 +133,7 @@ pub(crate) fn fill_lane(
     }
 
     let separations = points.iter().map(|contact| contact.separation);
-    put(field::GAP, separations.clone().fold(f64::from(f32::MAX), f64::min));
-    put(field::WIDEST, separations.fold(f64::from(f32::MIN), f64::max));
+    put(field::GAP, separations.fold(f64::from(f32::MAX), f64::min));
     let arms = sides.each_ref().map(|side| frame.inward(middle - side.center));
     put_vector(&mut put, field::FRICTION_ARM_A, arms[0]);
     put_vector(&mut put, field::FRICTION_ARM_B, arms[1]);
@@ -153,7 +152,6 @@ pub(crate) fn fill_lane(
     put(field::ROUNDNESS, sides[0].roundness);
     put(field::ROUNDNESS + 1, sides[1].roundness);
     put(field::SHARE, share(sides));
-    put(field::FOLLOWS, f64::from(sides.iter().any(|side| side.roundness == 0.0)));
     put_vector(&mut put, field::DRIFTED, frame.inward(sides[1].drift.0 - sides[0].drift.0));
     let turned = sides.each_ref().map(|side| frame.twice_turn(side.drift.1));
     put_vector(&mut put, field::TURNED_A, turned[0]);

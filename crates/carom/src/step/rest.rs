@@ -250,10 +250,7 @@ impl Rest {
 
     /// Whether all points of a pair that rests are so near that the contacts have them all.
     pub fn is_closed(&self, pair: &Pair) -> bool {
-        self.contacts(pair).all(|contact| {
-            let numbers = self.graph.numbers(contact);
-            numbers.get(field::WIDEST) <= numbers.get(field::HORIZON)
-        })
+        self.contacts(pair).all(|contact| self.graph.is_closed(contact))
     }
 
     /// Closing speed (m/s) up to which a point of a pair that rests, struck on from elsewhere, is left to the contacts. They

@@ -25,7 +25,7 @@ pub(crate) fn measure<L: Lanes>(bundle: &mut Bundle, drifts: &[Row]) {
         let apart = (linear(&drift_b) - linear(&drift_a)).dot(frame.normal);
         let (turn_a, turn_b) = (drift_of_arm(&frame, &drift_a), drift_of_arm(&frame, &drift_b));
         let shift = Shift::new(bundle, &frame, [&drift_a, &drift_b], part);
-        let (mut gap, mut widest) = (L::splat(f32::MAX), L::splat(f32::MIN));
+        let mut gap = L::splat(f32::MAX);
         let [arm_a, arm_b] = shift.arms;
         let apart = apart + (turn_b.dot(arm_b) - turn_a.dot(arm_a));
         let (tilt, turn) = (turn_b - turn_a, shift.mean_turn());
@@ -39,11 +39,9 @@ pub(crate) fn measure<L: Lanes>(bundle: &mut Bundle, drifts: &[Row]) {
             (lever.y + carried.y).store(&mut bundle.lines[at(field::LEVER) + 1], part);
             let real = line::<L>(bundle, at(field::MASS), part);
             gap = L::select_greater(real, L::splat(0.0), [gap.min(separation), gap]);
-            widest = L::select_greater(real, L::splat(0.0), [widest.max(separation), widest]);
         }
         shift.friction(bundle, part);
         (shift.way - drift_a[LEASH].max(drift_b[LEASH])).store(&mut bundle.lines[field::STRAY], part);
-        widest.store(&mut bundle.lines[field::WIDEST], part);
         gap.store(&mut bundle.lines[field::GAP], part);
     }
 }
@@ -76,7 +74,6 @@ impl<L: Lanes> Shift<L> {
     fn new(bundle: &Bundle, frame: &Frame<L>, [drift_a, drift_b]: [&[L; 8]; 2], part: usize) -> Self {
         let moved = frame.inward(linear(drift_b) - linear(drift_a));
         let moved = moved - vector(bundle, field::DRIFTED, part);
-        let follows = line::<L>(bundle, field::FOLLOWS, part);
         let turn_a = twice_turn(frame, drift_a) - vector(bundle, field::TURNED_A, part);
         let turn_b = twice_turn(frame, drift_b) - vector(bundle, field::TURNED_B, part);
         // Against what has a large radius, as far as the body's own arm: further round, substeps would have to be shorter.
@@ -88,6 +85,8 @@ impl<L: Lanes> Shift<L> {
         let (depth_a, depth_b) = (arms[0].z, arms[1].z);
         let (radius_a, radius_b) =
             (line::<L>(bundle, field::ROUNDNESS, part), line::<L>(bundle, field::ROUNDNESS + 1, part));
+        // Where both surfaces are round, it is the normal that turns as one rolls over the other.
+        let follows = L::select_greater(radius_a.min(radius_b), zero, [zero, L::splat(1.0)]);
         let round_a = radius_a.min((zero - depth_b).max(zero)) * follows;
         let round_b = radius_b.min(depth_a.max(zero)) * follows;
         Self {

@@ -4,8 +4,8 @@
 //! overlaps a large world has cost no pass over all of it, nor do those that are out soon.
 
 use super::passes::{GRAIN, Spot};
-use super::wrench::Find;
-use super::{Graph, Wrench};
+use super::wrench::{Find, Which};
+use super::{Graph, Wrenches};
 use crate::bodies::WORLD_ROW;
 use crate::room::Room;
 use crate::solver::bundle::{Bundle, POINTS, field};
@@ -51,8 +51,8 @@ struct Reach {
 impl Graph {
     /// Finds displacements for all overlaps, into rows that hold none yet. And tells which contact pushes how: displacements times
     /// masses, in place of impulses (kg·m).
-    pub fn push_out(&mut self, displacements: &mut [Row], limits: Limits, wrenches: &mut Vec<Wrench>) {
-        wrenches.clear();
+    pub fn push_out(&mut self, displacements: &mut [Row], limits: Limits, wrenches: &mut Wrenches) {
+        wrenches.begin(false);
         let bundles = self.colors.iter().flat_map(|color| &color.bundles);
         let overlapping = bundles.filter(|bundle| limits.finds_overlap(bundle)).count();
         if overlapping == 0 {
@@ -78,7 +78,8 @@ impl Graph {
         for ((color, index), impulses) in reach.drawn.into_iter().zip(reach.impulses) {
             let contacts = self.contacts_of((color, index));
             let bundles = std::slice::from_ref(&self.colors[color].bundles[index]);
-            self.machine.run(Find { bundles, contacts, rows: displacements, found: wrenches });
+            let (rows, found) = (&*displacements, &mut *wrenches);
+            self.machine.run(Find { bundles, contacts, rows, found, which: Which::Normal });
             let bundle = &mut self.colors[color].bundles[index];
             for (point, line) in impulses.into_iter().enumerate() {
                 bundle.lines[field::of_point(point, field::IMPULSE)] = line;

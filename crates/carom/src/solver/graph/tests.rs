@@ -205,14 +205,14 @@ fn any_number_of_threads_gives_the_same_bits() {
             graph.begin(&unpushed, &mut velocities, [1e-4, 0.0], 1.0 / 240.0);
             graph.solve(&mut velocities, effort, |row| problem.mobility(row));
         }
-        let (mut wrenches, mut pushes) = (Vec::new(), Vec::new());
+        let (mut wrenches, mut pushes) = (Wrenches::default(), Wrenches::default());
         graph.wrenches(&velocities, &mut wrenches);
         let limits = Limits { allowed: 0.0, left: 0.0, share: 0.5 };
         graph.push_out(&mut displacements, limits, &mut pushes);
-        assert!(!pushes.is_empty());
-        wrenches.append(&mut pushes);
+        assert!(!pushes.list().is_empty());
         assert_eq!(pool.has_workers(), threads > 1);
-        let pushes = wrenches.iter().map(|it| (it.contact, it.impulse(), it.moment())).collect::<Vec<_>>();
+        let pushes = wrenches.list().iter().chain(pushes.list());
+        let pushes = pushes.map(|it| (it.contact, it.impulse(), it.moment())).collect::<Vec<_>>();
         let residuals = graph
             .colors
             .iter()
@@ -249,7 +249,7 @@ fn large_islands_that_are_not_to_be_solved_wait_twice_as_long_each_time() {
 fn upright(separation: f32) -> Lane {
     let mut lane = NO_CONTACT;
     (lane[field::NORMAL + 1], lane[field::TANGENT]) = (1.0, 1.0);
-    (lane[field::GAP], lane[field::WIDEST]) = (separation, separation);
+    lane[field::GAP] = separation;
     lane[field::of_point(0, field::MASS)] = 0.5;
     lane[field::of_point(0, field::IMPULSE)] = 3.0;
     lane[field::of_point(0, field::SEPARATION)] = separation;
@@ -264,7 +264,7 @@ fn overlaps_are_pushed_out_of_what_they_reach_and_impulses_stay() {
         .map(|(rows, separation)| graph.insert(rows, [true; 2], &upright(separation)));
     let mut rows = vec![Row([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0]); 6];
     rows[0] = Row::ZERO;
-    let mut pushes = Vec::new();
+    let mut pushes = Wrenches::default();
     graph.push_out(&mut rows, Limits { allowed: 1e-4, left: 0.5e-4, share: 0.5 }, &mut pushes);
 
     let heights: Vec<f32> = rows.iter().map(|row| row.0[1]).collect();
@@ -272,11 +272,14 @@ fn overlaps_are_pushed_out_of_what_they_reach_and_impulses_stay() {
     assert!(heights[3] >= heights[2] - 1e-5, "the third is pushed along: {heights:?}");
     assert!(heights.iter().sum::<f32>().abs() < 1e-9, "the centre of mass stays: {heights:?}");
     assert_eq!(heights[4..], [0.0; 2]);
-    let pushing: Vec<ContactId> = pushes.iter().map(|push| push.contact).collect();
+    let pushing: Vec<ContactId> = pushes.list().iter().map(|push| push.contact).collect();
     assert_eq!(pushing, contacts[..2]);
     assert!(contacts.iter().all(|&id| graph.get(id, field::of_point(0, field::IMPULSE)) == 3.0));
 
     let mut still = vec![Row::ZERO; 6];
     graph.push_out(&mut still, Limits { allowed: 2e-3, left: 1e-3, share: 0.5 }, &mut pushes);
-    assert!(pushes.is_empty() && still.iter().all(|row| *row == Row::ZERO), "less than is allowed stays");
+    assert!(
+        pushes.list().is_empty() && still.iter().all(|row| *row == Row::ZERO),
+        "less than is allowed stays"
+    );
 }

@@ -19,8 +19,53 @@ pub(crate) struct Wrench {
     rows: [u32; 2],
     /// The mean centre is this share of the way from the centre of mass of the first body to that of the second.
     share: f32,
-    /// In the world: along the normal, impulse (N·s) and its moment about the mean centre (N·m·s); then of friction and twist.
-    exerts: [[f32; 3]; PARTS],
+    exerts: Exerts,
+}
+
+/// In the world: an impulse (N·s) and its moment about the mean centre (N·m·s).
+type Exerts = [[f32; 3]; 2];
+
+/// What contacts exert, and how much of it friction and twist do where anybody asks for that.
+#[derive(Default)]
+pub(crate) struct Wrenches {
+    list: Vec<Wrench>,
+    across: Option<Vec<Exerts>>,
+}
+
+impl Wrenches {
+    /// None yet, of all that contacts exert; where `apart`, friction and twist are known by themselves, too.
+    pub fn begin(&mut self, apart: bool) {
+        self.list.clear();
+        self.across = apart.then(|| self.across.take().unwrap_or_default());
+        self.across.iter_mut().for_each(Vec::clear);
+    }
+
+    /// One for each contact that exerts anything.
+    pub fn list(&self) -> &[Wrench] {
+        &self.list
+    }
+
+    /// Impulse (N·s) of friction at each of them and, with twist, its moment about the mean centre (N·m·s); empty if nobody asked.
+    pub fn across(&self) -> impl Iterator<Item = [DVec3; 2]> {
+        self.across.iter().flatten().map(|exerts| exerts.map(wide))
+    }
+
+    fn append(&mut self, mut other: Self) {
+        self.list.append(&mut other.list);
+        if let (Some(across), Some(mut more)) = (&mut self.across, other.across) {
+            across.append(&mut more);
+        }
+    }
+
+    /// As many as there may be `contacts`.
+    fn with_room(&self, contacts: usize) -> Self {
+        let across = self.across.as_ref().map(|_| Vec::with_capacity(contacts));
+        Self { list: Vec::with_capacity(contacts), across }
+    }
+}
+
+fn wide(vector: [f32; 3]) -> DVec3 {
+    DVec3::from(vector.map(f64::from))
 }
 
 impl Wrench {
@@ -35,31 +80,16 @@ impl Wrench {
         self.share.into()
     }
 
+    /// The impulse (N·s).
     #[inline]
-    fn part(&self, part: usize) -> DVec3 {
-        DVec3::from(self.exerts[part].map(f64::from))
-    }
-
-    /// Impulse along the normal (N·s), and its moment about the mean centre (N·m·s).
-    #[inline]
-    pub fn normal(&self) -> [DVec3; 2] {
-        [self.part(PRESSURE), self.part(PRESSURE_MOMENT)]
-    }
-
-    /// The same of friction and twist.
-    #[inline]
-    pub fn across(&self) -> [DVec3; 2] {
-        [self.part(FRICTION), self.part(FRICTION_MOMENT)]
-    }
-
-    /// The whole impulse.
     pub fn impulse(&self) -> DVec3 {
-        self.part(PRESSURE) + self.part(FRICTION)
+        wide(self.exerts[0])
     }
 
-    /// The whole moment about the mean centre.
+    /// Its moment about the mean centre (N·m·s).
+    #[inline]
     pub fn moment(&self) -> DVec3 {
-        self.part(PRESSURE_MOMENT) + self.part(FRICTION_MOMENT)
+        wide(self.exerts[1])
     }
 
     /// The angular impulses about their own `centers` of mass that `[impulse, moment]` gives to both bodies: the moment about the mean
@@ -72,15 +102,16 @@ impl Wrench {
     }
 }
 
-/// The vectors of what a contact exerts.
-const PRESSURE: usize = 0;
-const PRESSURE_MOMENT: usize = 1;
-const FRICTION: usize = 2;
-const FRICTION_MOMENT: usize = 3;
-const PARTS: usize = 4;
+/// Which of a contact's impulses are meant.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Which {
+    Normal,
+    Across,
+    All,
+}
 
 /// What the lanes of a bundle exert: each vector's components in the world.
-type Sums = [[Line; 3]; PARTS];
+type Sums = [[Line; 3]; 2];
 
 /// From the mean centre to where friction acts.
 #[inline(always)]
@@ -93,31 +124,30 @@ fn mean_arm<L: Lanes>(bundle: &Bundle, part: usize) -> Vector<L> {
 
 /// Adds up what each lane exerts on its second body, about the mean centre.
 #[inline(always)]
-fn sum_up<L: Lanes>(bundle: &Bundle) -> Sums {
-    let mut sums = [[Line::ZERO; 3]; PARTS];
+fn sum_up<L: Lanes>(bundle: &Bundle, which: Which) -> Sums {
+    let mut sums = [[Line::ZERO; 3]; 2];
     let zero = L::splat(0.0);
     for part in 0..LANES / L::WIDTH {
         let frame = Frame::<L>::load(bundle, part);
-        let (mut pressure, mut moment) = (zero, Vector::new(zero, zero, zero));
-        for point in 0..bundle.points.min(POINTS) {
-            let impulse = line::<L>(bundle, field::of_point(point, field::IMPULSE), part);
-            pressure = pressure + impulse;
-            moment = moment + pressed(lever(bundle, (point, part)), impulse);
+        let (mut impulse, mut moment) = (Vector::new(zero, zero, zero), Vector::new(zero, zero, zero));
+        if which != Which::Across {
+            for point in 0..bundle.points.min(POINTS) {
+                let pressure = line::<L>(bundle, field::of_point(point, field::IMPULSE), part);
+                impulse.z = impulse.z + pressure;
+                moment = moment + pressed(lever(bundle, (point, part)), pressure);
+            }
         }
-        let friction = Vector::new(
-            line::<L>(bundle, field::FRICTION, part),
-            line::<L>(bundle, field::FRICTION + 1, part),
-            zero,
-        );
-        let twist = Vector::new(zero, zero, line(bundle, field::TWIST, part));
-        let arm = mean_arm(bundle, part);
-        let pressure = Vector::new(zero, zero, pressure);
-        let parts = [pressure, arm.cross(pressure) + moment, friction, arm.cross(friction) + twist];
-        for number in 0..PARTS {
-            let outward = frame.outward(parts[number]);
-            outward.x.store(&mut sums[number][0], part);
-            outward.y.store(&mut sums[number][1], part);
-            outward.z.store(&mut sums[number][2], part);
+        if which != Which::Normal {
+            impulse.x = line(bundle, field::FRICTION, part);
+            impulse.y = line(bundle, field::FRICTION + 1, part);
+            moment.z = line(bundle, field::TWIST, part);
+        }
+        let moment = mean_arm(bundle, part).cross(impulse) + moment;
+        for (vector, sum) in [impulse, moment].into_iter().zip(&mut sums) {
+            let outward = frame.outward(vector);
+            outward.x.store(&mut sum[0], part);
+            outward.y.store(&mut sum[1], part);
+            outward.z.store(&mut sum[2], part);
         }
     }
     sums
@@ -129,7 +159,8 @@ pub(super) struct Find<'a> {
     /// The contact of each lane.
     pub contacts: &'a [u32],
     pub rows: &'a [Row],
-    pub found: &'a mut Vec<Wrench>,
+    pub found: &'a mut Wrenches,
+    pub which: Which,
 }
 
 impl Kernel for Find<'_> {
@@ -137,50 +168,61 @@ impl Kernel for Find<'_> {
 
     #[inline(always)]
     fn run<L: Lanes>(self) {
-        for (index, (bundle, contacts)) in self.bundles.iter().zip(self.contacts.chunks(LANES)).enumerate() {
-            bring_next::<L>(self.bundles, index, field::SWEPT);
-            add_wrenches((bundle, &sum_up::<L>(bundle)), contacts, self.rows, self.found);
+        let Self { bundles, rows, found, .. } = self;
+        for (index, (bundle, contacts)) in bundles.iter().zip(self.contacts.chunks(LANES)).enumerate() {
+            bring_next::<L>(bundles, index, field::SWEPT);
+            let sums = sum_up::<L>(bundle, self.which);
+            let across = found.across.is_some().then(|| sum_up::<L>(bundle, Which::Across));
+            for (lane, &contact) in contacts.iter().enumerate() {
+                let sides = [bundle.a[lane], bundle.b[lane]];
+                let exerts = exerted(&sums, lane);
+                let does = exerts.as_flattened().iter().any(|&value| value != 0.0);
+                if does && sides.iter().any(|&row| rows[row as usize].0[WRITABLE] != 0.0) {
+                    let share = bundle.get(lane, field::SHARE);
+                    found.list.push(Wrench { contact: ContactId(contact), rows: sides, share, exerts });
+                    if let (Some(list), Some(sums)) = (&mut found.across, &across) {
+                        list.push(exerted(sums, lane));
+                    }
+                }
+            }
         }
     }
+}
+
+/// What one lane exerts.
+#[inline(always)]
+fn exerted(sums: &Sums, lane: usize) -> Exerts {
+    // Loops, as what maps arrays may end up as a call for each number.
+    let mut exerts = Exerts::default();
+    for (vector, lines) in exerts.iter_mut().zip(sums) {
+        for (value, line) in vector.iter_mut().zip(lines) {
+            *value = line.0[lane];
+        }
+    }
+    exerts
 }
 
 impl Graph {
     /// Finds what all contacts exert that exert anything on a body of `rows` that can be moved.
-    pub fn wrenches(&self, rows: &[Row], found: &mut Vec<Wrench>) {
-        found.clear();
-        found.reserve(self.colors.iter().map(|color| color.contacts.len()).sum());
+    pub fn wrenches(&self, rows: &[Row], found: &mut Wrenches) {
+        let count = self.colors.iter().map(|color| color.contacts.len()).sum();
+        found.list.reserve(count);
+        found.across.iter_mut().for_each(|across| across.reserve(count));
+        let which = Which::All;
         for Color { bundles, contacts, .. } in self.order().map(|color| &self.colors[color]) {
             if !self.pool.shares(bundles.len(), GRAIN) {
-                self.machine.run(Find { bundles, contacts, rows, found });
+                self.machine.run(Find { bundles, contacts, rows, found, which });
                 continue;
             }
+            let empty = &*found;
             let stretches = self.pool.ranges(bundles.len(), GRAIN, |range| {
                 let contacts = &contacts[range.start * LANES..contacts.len().min(range.end * LANES)];
                 let bundles = &bundles[range];
-                let mut found = Vec::with_capacity(contacts.len());
-                self.machine.run(Find { bundles, contacts, rows, found: &mut found });
+                let mut found = empty.with_room(contacts.len());
+                self.machine.run(Find { bundles, contacts, rows, found: &mut found, which });
                 found
             });
-            stretches.into_iter().for_each(|mut stretch| found.append(&mut stretch));
-        }
-    }
-}
-
-/// Adds what a bundle's contacts exert on bodies that can be moved.
-fn add_wrenches((bundle, sums): (&Bundle, &Sums), contacts: &[u32], rows: &[Row], found: &mut Vec<Wrench>) {
-    for (lane, &contact) in contacts.iter().enumerate() {
-        let sides = [bundle.a[lane], bundle.b[lane]];
-        // Loops, as what maps arrays may end up as a call for each number.
-        let mut exerts = [[0.0; 3]; PARTS];
-        for (vector, lines) in exerts.iter_mut().zip(sums) {
-            for (value, line) in vector.iter_mut().zip(lines) {
-                *value = line.0[lane];
-            }
-        }
-        let does = exerts.as_flattened().iter().any(|&value| value != 0.0);
-        if does && sides.iter().any(|&row| rows[row as usize].0[WRITABLE] != 0.0) {
-            let share = bundle.get(lane, field::SHARE);
-            found.push(Wrench { contact: ContactId(contact), rows: sides, share, exerts });
+            stretches.into_iter().for_each(|stretch| found.append(stretch));
         }
     }
 }

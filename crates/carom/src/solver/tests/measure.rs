@@ -70,7 +70,7 @@ impl Case {
     fn measured(&self) -> f64 {
         let mut bundle = self.bundle();
         measure::<Portable<4>>(&mut bundle, &[row(&STILL), row(&self.now[0]), row(&self.now[1])]);
-        assert_eq!(bundle.get(0, field::GAP), bundle.get(0, field::WIDEST));
+        assert_eq!(bundle.get(0, field::GAP), bundle.get(0, field::of_point(0, field::SEPARATION)));
         f64::from(bundle.get(0, field::GAP))
     }
 }

@@ -86,14 +86,15 @@ impl Rest {
 
     /// Adds up how the contacts turn each body.
     fn turn(&self, bodies: &mut Bodies, work: &mut Work) {
-        for wrench in &work.wrenches {
+        let mut across = work.wrenches.across();
+        for wrench in work.wrenches.list() {
             let (push, [a, b]) = ([wrench.impulse(), wrench.moment()], wrench.rows());
             let centers = [work.centers[a], work.centers[b]];
             let [turn_a, turn_b] = wrench.turns(push, centers);
             work.turns[a] += turn_a;
             work.turns[b] += turn_b;
-            if let Some(journal) = &mut bodies.journal {
-                journal.note_causes(wrench, centers, self.manners[wrench.contact.index()].bounces);
+            if let (Some(journal), Some(across)) = (&mut bodies.journal, across.next()) {
+                journal.note_causes((wrench, across), centers, self.manners[wrench.contact.index()].bounces);
             }
         }
     }

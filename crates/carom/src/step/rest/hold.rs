@@ -96,6 +96,7 @@ impl Rest {
             work.is_steady[row] = sudden <= little || !is_free(bodies, row);
         }
         self.graph.in_whole_islands(&mut work.is_steady);
+        work.wrenches.begin(bodies.journal.is_some());
         self.graph.wrenches(&self.rows.velocities, &mut work.wrenches);
         self.add_up(work);
         self.give(bodies, work, (law, span));
@@ -115,7 +116,7 @@ impl Rest {
 
     /// Adds up what contacts push each body with, and how much of it by those with friction.
     fn add_up(&self, work: &mut Work) {
-        for wrench in &work.wrenches {
+        for wrench in work.wrenches.list() {
             let ([a, b], impulse) = (wrench.rows(), wrench.impulse());
             work.impulses[a] -= impulse;
             work.impulses[b] += impulse;

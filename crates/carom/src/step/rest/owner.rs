@@ -43,17 +43,33 @@ pub(super) struct Manner {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Touched {
     count: u8,
-    /// Keys of both features.
-    features: [[u32; 2]; POINTS],
+    /// Their features.
+    features: [Features; POINTS],
 }
 
+/// Names the features of two surfaces that touch at a point.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Features(u32);
+
+impl Features {
+    /// A good hash of both keys, as it is kept for each point of each contact: that two points of a pair share one by chance happens once in
+    /// 2³² times, and then the impulse of one point goes to another one of the same contact.
+    pub fn of(point: &ContactPoint) -> Self {
+        let [a, b] = [point.feature_a, point.feature_b].map(|feature| u64::from(feature.key()));
+        Self(((a << 32 | b).wrapping_mul(SPREAD) >> 32) as u32)
+    }
+}
+
+/// 2⁶⁴ divided by the golden ratio, odd: Fibonacci hashing (Knuth, The Art of Computer Programming 3, section 6.4).
+const SPREAD: u64 = 0x9e37_79b9_7f4a_7c15;
+
 impl Touched {
-    pub const NOTHING: Touched = Touched { count: 0, features: [[0; 2]; POINTS] };
+    pub const NOTHING: Touched = Touched { count: 0, features: [Features(0); POINTS] };
 
     pub fn of(manifold: &Manifold) -> Self {
         let mut touched = Self { count: manifold.points().len() as u8, ..Self::NOTHING };
         for (entry, point) in touched.features.iter_mut().zip(manifold.points()) {
-            *entry = keys(point);
+            *entry = Features::of(point);
         }
         touched
     }
@@ -63,13 +79,8 @@ impl Touched {
         self.count.into()
     }
 
-    /// The keys of the features that touch at each.
-    pub fn features(&self) -> &[[u32; 2]] {
+    /// The features that touch at each.
+    pub fn features(&self) -> &[Features] {
         &self.features[..self.count()]
     }
-}
-
-/// The keys of the features that touch at a point.
-pub(super) fn keys(point: &ContactPoint) -> [u32; 2] {
-    [point.feature_a.key(), point.feature_b.key()]
 }

@@ -40,7 +40,7 @@ impl Rest {
         let allowed = law.overlap_left();
         let limits = Limits { allowed: allowed as f32, left: (LEFT * allowed) as f32, share: PUSH_OUT };
         self.graph.push_out(&mut displacements, limits, &mut work.wrenches);
-        if !work.wrenches.is_empty() {
+        if !work.wrenches.list().is_empty() {
             displace(bodies, &mut work, &displacements);
         }
         work.unpushed = displacements;
@@ -53,8 +53,8 @@ fn displace(bodies: &mut Bodies, work: &mut Work, displacements: &[Row]) {
     // In the room that substeps have impulses in; m.
     let moves = &mut work.impulses;
     fill(moves, bodies.states.len(), DVec3::ZERO);
-    for wrench in &work.wrenches {
-        let [push, _] = wrench.normal();
+    for wrench in work.wrenches.list() {
+        let push = wrench.impulse();
         let inverse_mass = |row: usize| {
             let moves = displacements[row].0[WRITABLE] != 0.0;
             if moves { bodies.constants[row].inverse_mass } else { 0.0 }

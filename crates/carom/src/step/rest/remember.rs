@@ -5,7 +5,7 @@
 //! points start with impulses that push and turn both bodies as the old ones did.
 
 use super::Rest;
-use super::owner::Touched;
+use super::owner::{Features, Touched};
 use crate::collide::Manifold;
 use crate::math::{DMat3, DVec3, any_tangent};
 use crate::solver::bundle::{POINTS, field};
@@ -35,8 +35,8 @@ pub(super) struct Legacy<'a> {
 /// What a contact exerted.
 struct Past<'a> {
     numbers: Numbers<'a>,
-    /// Keys of what touched at each point.
-    features: &'a [[u32; 2]],
+    /// What touched at each point.
+    features: &'a [Features],
 }
 
 impl Rest {

@@ -6,7 +6,7 @@ use crate::bodies::Bodies;
 use crate::ledger::contacts::{Exerted, settle};
 use crate::math::DVec3;
 use crate::room::Room;
-use crate::solver::graph::Wrench;
+use crate::solver::graph::Wrenches;
 use crate::solver::lanes::Row;
 
 /// Of each row, unless said otherwise.
@@ -25,7 +25,7 @@ pub(super) struct Work {
     /// Whether contacts push it.
     pub is_pushed: Vec<bool>,
     /// What each contact exerts.
-    pub wrenches: Vec<Wrench>,
+    pub wrenches: Wrenches,
     /// The sum of the impulses (N·s), and of their turns about the mean place of the centre of mass (N·m·s; m).
     pub impulses: Vec<DVec3>,
     pub turns: Vec<DVec3>,
