@@ -1,7 +1,9 @@
 //! Room in the lists that a large world is made of.
 //!
-//! A `Vec` that is full takes twice the room that it had: in the end up to half of it is empty. What has an entry for each body, pair or
-//! contact takes a sixteenth more instead.
+//! A `Vec` that is full takes twice the room that it had: in the end up to half of it is empty. Where there is such a list for each body, it
+//! takes a sixteenth more instead. Lists for a whole world do take twice their room: systems provide large blocks page by
+//! page, as these are written to, so that what is empty is in no memory; but a list that moves often leaves holes behind. Measured with
+//! 100,000 packed boxes, peaks of 501 MiB with a sixteenth, of 466 with twice.
 
 /// Lists that take little more room than they need.
 pub(crate) trait Room<T> {
@@ -17,6 +19,9 @@ pub(crate) trait Room<T> {
 /// A list that is full gets room for this share of its entries, and for so many at least.
 const SHARE: usize = 16;
 const LEAST: usize = 4;
+
+/// From this size on (bytes), where allocators begin to ask the system, it gets twice its room.
+const LARGE: usize = 128 << 10;
 
 impl<T> Room<T> for Vec<T> {
     #[inline]
@@ -43,7 +48,8 @@ impl<T> Room<T> for Vec<T> {
 
 #[cold]
 fn make_room<T>(list: &mut Vec<T>, wanted: usize) {
-    list.reserve_exact(wanted.max(list.len() / SHARE).max(LEAST));
+    let share = if size_of_val(list.as_slice()) < LARGE { SHARE } else { 1 };
+    list.reserve_exact(wanted.max(list.len() / share).max(LEAST));
 }
 
 #[cfg(test)]
@@ -51,9 +57,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn lists_grow_by_a_sixteenth_and_hold_what_was_put_there() {
+    fn lists_grow_by_a_sixteenth_while_small_and_hold_what_was_put_there() {
         let (mut one, mut other) = (Vec::new(), Vec::new());
-        for number in 0..10_000_usize {
+        let small = LARGE / size_of::<usize>();
+        for number in 0..small {
             one.put(number);
             other.lengthen(number + 1, number);
             let most = number + 1 + (number / SHARE).max(LEAST);
@@ -63,6 +70,13 @@ mod tests {
                 one.capacity()
             );
         }
+        let mut moves = 0;
+        for number in small..5 * small {
+            moves += usize::from(one.len() == one.capacity());
+            one.put(number);
+            other.lengthen(number + 1, number);
+        }
+        assert!((2..=3).contains(&moves), "{moves} moves");
         assert!(one.iter().enumerate().all(|(number, &entry)| entry == number) && one == other);
         other.lengthen(5, 0);
         assert_eq!(one, other, "it does not get shorter");

@@ -182,12 +182,12 @@ const THREADS: [u32; 3] = [1, 2, 4];
 
 /// The hashes of states and events of [pile, mesh, gas, cradle, stack, crowd].
 const EXPECTED: [[u64; 2]; 6] = [
-    [0xa4b3_3559_fcc9_4128, 0x9890_e6d6_5200_7f38],
-    [0x50a9_3213_b4ac_e9c9, 0xb30b_7829_8a2b_318a],
+    [0x7623_fac3_3412_09c5, 0xc1a5_7f80_7822_f2e0],
+    [0x426a_40e3_47d1_b486, 0x21b0_5f5e_1dfb_decc],
     [0xb7c9_a597_8de9_22c8, 0x12d9_d339_e94d_7830],
     [0x495a_c80e_1b79_9fde, 0x046b_b65b_a085_2bf1],
-    [0xa986_b83d_b84e_1766, 0x96d0_827f_5252_f2d3],
-    [0xf082_d937_5c4a_a37a, 0xa754_c9c4_8f5c_5c1e],
+    [0xbc47_0e2b_a20b_0184, 0x31cc_a431_edc0_9197],
+    [0x9566_edbf_d451_df88, 0xe1d8_5cec_8d60_1593],
 ];
 
 #[test]

@@ -106,7 +106,6 @@ impl Wrench {
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Which {
     Normal,
-    Across,
     All,
 }
 
@@ -122,35 +121,42 @@ fn mean_arm<L: Lanes>(bundle: &Bundle, part: usize) -> Vector<L> {
     arm_a.scaled(L::splat(1.0) - share) + arm_b.scaled(share)
 }
 
-/// Adds up what each lane exerts on its second body, about the mean centre.
+/// Adds up what each lane exerts on its second body, about the mean centre; and where `apart`, what friction and twist do of that.
 #[inline(always)]
-fn sum_up<L: Lanes>(bundle: &Bundle, which: Which) -> Sums {
-    let mut sums = [[Line::ZERO; 3]; 2];
+fn sum_up<L: Lanes>(bundle: &Bundle, which: Which, apart: bool) -> [Sums; 2] {
+    let [mut whole, mut across] = [[[Line::ZERO; 3]; 2]; 2];
     let zero = L::splat(0.0);
     for part in 0..LANES / L::WIDTH {
         let frame = Frame::<L>::load(bundle, part);
+        let arm = mean_arm::<L>(bundle, part);
         let (mut impulse, mut moment) = (Vector::new(zero, zero, zero), Vector::new(zero, zero, zero));
-        if which != Which::Across {
-            for point in 0..bundle.points.min(POINTS) {
-                let pressure = line::<L>(bundle, field::of_point(point, field::IMPULSE), part);
-                impulse.z = impulse.z + pressure;
-                moment = moment + pressed(lever(bundle, (point, part)), pressure);
-            }
-        }
-        if which != Which::Normal {
+        if which == Which::All {
             impulse.x = line(bundle, field::FRICTION, part);
             impulse.y = line(bundle, field::FRICTION + 1, part);
             moment.z = line(bundle, field::TWIST, part);
         }
-        let moment = mean_arm(bundle, part).cross(impulse) + moment;
-        for (vector, sum) in [impulse, moment].into_iter().zip(&mut sums) {
-            let outward = frame.outward(vector);
-            outward.x.store(&mut sum[0], part);
-            outward.y.store(&mut sum[1], part);
-            outward.z.store(&mut sum[2], part);
+        if apart {
+            store(&frame, [impulse, arm.cross(impulse) + moment], &mut across, part);
         }
+        for point in 0..bundle.points.min(POINTS) {
+            let pressure = line::<L>(bundle, field::of_point(point, field::IMPULSE), part);
+            impulse.z = impulse.z + pressure;
+            moment = moment + pressed(lever(bundle, (point, part)), pressure);
+        }
+        store(&frame, [impulse, arm.cross(impulse) + moment], &mut whole, part);
     }
-    sums
+    [whole, across]
+}
+
+/// Stores vectors of the contact frame as those of the world that they are.
+#[inline(always)]
+fn store<L: Lanes>(frame: &Frame<L>, vectors: [Vector<L>; 2], sums: &mut Sums, part: usize) {
+    for (vector, sum) in vectors.into_iter().zip(sums) {
+        let outward = frame.outward(vector);
+        outward.x.store(&mut sum[0], part);
+        outward.y.store(&mut sum[1], part);
+        outward.z.store(&mut sum[2], part);
+    }
 }
 
 /// What the contacts of some bundles exert that exert anything on a body of `rows` that can be moved.
@@ -171,17 +177,16 @@ impl Kernel for Find<'_> {
         let Self { bundles, rows, found, .. } = self;
         for (index, (bundle, contacts)) in bundles.iter().zip(self.contacts.chunks(LANES)).enumerate() {
             bring_next::<L>(bundles, index, field::SWEPT);
-            let sums = sum_up::<L>(bundle, self.which);
-            let across = found.across.is_some().then(|| sum_up::<L>(bundle, Which::Across));
+            let [whole, across] = sum_up::<L>(bundle, self.which, found.across.is_some());
             for (lane, &contact) in contacts.iter().enumerate() {
                 let sides = [bundle.a[lane], bundle.b[lane]];
-                let exerts = exerted(&sums, lane);
+                let exerts = exerted(&whole, lane);
                 let does = exerts.as_flattened().iter().any(|&value| value != 0.0);
                 if does && sides.iter().any(|&row| rows[row as usize].0[WRITABLE] != 0.0) {
                     let share = bundle.get(lane, field::SHARE);
                     found.list.push(Wrench { contact: ContactId(contact), rows: sides, share, exerts });
-                    if let (Some(list), Some(sums)) = (&mut found.across, &across) {
-                        list.push(exerted(sums, lane));
+                    if let Some(list) = &mut found.across {
+                        list.push(exerted(&across, lane));
                     }
                 }
             }
