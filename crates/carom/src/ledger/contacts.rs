@@ -8,9 +8,8 @@ use super::flights::weight;
 use super::journal::{CAPTURE, CORRECTION, INTEGRATION, Journal, Motion, Path};
 use crate::bodies::{Bodies, WORLD_ROW};
 use crate::flight::RigidState;
-use crate::math::DVec3;
+use crate::math::{DVec3, Vec3};
 use crate::solver::graph::Wrench;
-use std::ops::AddAssign;
 
 /// What contacts have exerted during a substep, row by row.
 #[derive(Clone, Copy, Debug)]
@@ -51,19 +50,33 @@ impl Push {
     }
 }
 
-impl AddAssign for Push {
+/// What a body gets by one cause of several: it is told apart from the whole only where works are booked cause by cause, and that is as exact
+/// as the impulses that contacts are solved for.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Part {
+    impulse: Vec3,
+    turn: Vec3,
+}
+
+impl Part {
     #[inline]
-    fn add_assign(&mut self, other: Self) {
-        self.impulse += other.impulse;
-        self.turn += other.turn;
+    fn whole(&self) -> Push {
+        Push { impulse: self.impulse.as_dvec3(), turn: self.turn.as_dvec3() }
+    }
+
+    #[inline]
+    fn add(&mut self, impulse: Vec3, turn: Vec3) {
+        self.impulse += impulse;
+        self.turn += turn;
     }
 }
 
-/// What a contact gives to its two bodies by one of its causes (impulse, moment).
+/// Adds what a contact between bodies whose centres of mass are so far apart gives to both by one of its causes (impulse, moment).
 #[inline]
-fn sides(wrench: &Wrench, [impulse, moment]: [DVec3; 2], centers: [DVec3; 2]) -> [Push; 2] {
-    let [turn_a, turn_b] = wrench.turns([impulse, moment], centers);
-    [Push { impulse: -impulse, turn: turn_a }, Push { impulse, turn: turn_b }]
+fn add_sides(parts: &mut [Part], wrench: &Wrench, cause: [Vec3; 2], between: Vec3) {
+    let ([a, b], [turn_a, turn_b]) = (wrench.rows(), wrench.turns_of(cause, between));
+    parts[a].add(-cause[0], turn_a);
+    parts[b].add(cause[0], turn_b);
 }
 
 /// Books what contacts have exerted in the substep that is over.
@@ -71,9 +84,8 @@ pub(crate) fn settle(bodies: &mut Bodies, exerted: &Exerted) {
     let Some(mut journal) = bodies.journal.take() else { return };
     for row in 0..exerted.impulses.len() {
         let push = Push { impulse: exerted.impulses[row], turn: exerted.turns[row] };
-        let is_nothing = |push: &Push| *push == Push::default();
-        if journal.holds[row].path != Path::Free || !is_nothing(&push) || !is_nothing(&journal.frictions[row])
-        {
+        let does = push != Push::default() || journal.frictions[row] != Part::default();
+        if journal.holds[row].path != Path::Free || does {
             journal.book_row(bodies, row, (push, exerted.centers[row], exerted.time));
         }
     }
@@ -93,36 +105,23 @@ pub(crate) fn captured(bodies: &mut Bodies, row: usize, [impulse, turn]: [DVec3;
 }
 
 impl Journal {
-    /// Notes by which cause a contact exerts what it does, `across` its normal by friction and twist, on two bodies whose centres of mass are there, while whoever gives it to them
-    /// has it at hand: causes add up body by body as the whole does, so that no contact has to be gone through again.
+    /// Notes by which cause a contact exerts what it does, `across` its normal by friction and twist, on two bodies whose centres of mass are
+    /// so far apart (m), while whoever gives it to them has it at hand: causes add up body by body as the whole does, so that no contact
+    /// has to be gone through again.
     #[inline]
-    pub fn note_causes(
-        &mut self,
-        (wrench, across): (&Wrench, [DVec3; 2]),
-        centers: [DVec3; 2],
-        bounces: bool,
-    ) {
-        let ([a, b], [push_a, push_b]) = (wrench.rows(), sides(wrench, across, centers));
-        self.frictions[a] += push_a;
-        self.frictions[b] += push_b;
+    pub fn note_causes(&mut self, (wrench, across): (&Wrench, [Vec3; 2]), between: DVec3, bounces: bool) {
+        let between = between.as_vec3();
+        add_sides(&mut self.frictions, wrench, across, between);
         if bounces {
-            let normal = [wrench.impulse() - across[0], wrench.moment() - across[1]];
-            self.note_rebound((wrench, normal), centers);
+            self.rebounds.resize(self.holds.len(), Part::default());
+            add_sides(&mut self.rebounds, wrench, wrench.without(across), between);
         }
-    }
-
-    #[inline(never)]
-    fn note_rebound(&mut self, (wrench, normal): (&Wrench, [DVec3; 2]), centers: [DVec3; 2]) {
-        self.rebounds.resize(self.holds.len(), Push::default());
-        let ([a, b], [push_a, push_b]) = (wrench.rows(), sides(wrench, normal, centers));
-        self.rebounds[a] += push_a;
-        self.rebounds[b] += push_b;
     }
 
     /// Books what contacts and rest capture have given to the body of a row.
     #[inline]
     fn book_row(&mut self, bodies: &Bodies, row: usize, (push, center, time): (Push, DVec3, f64)) {
-        let friction = std::mem::take(&mut self.frictions[row]);
+        let friction = std::mem::take(&mut self.frictions[row]).whole();
         let hold = &mut self.holds[row];
         let is_led = hold.path != Path::Free;
         // Whoever is held in the next substep will be told so.
@@ -198,7 +197,7 @@ impl Journal {
         self.posts.loss_friction -= friction.work(motion);
         let mut work = normal.work(motion);
         if let Some(rebound) = self.rebounds.get(row) {
-            let captured = rebound.work(motion);
+            let captured = rebound.whole().work(motion);
             self.posts.loss_rest_capture -= captured;
             self.tallies[row].artefacts[CAPTURE] += captured;
             work -= captured;

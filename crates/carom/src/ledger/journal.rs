@@ -1,6 +1,6 @@
 //! What is noted while a step goes on.
 
-use super::contacts::Push;
+use super::contacts::{Part, Push};
 use super::flights::heavy_mass;
 use super::{Posts, Residual, Stock};
 use crate::bodies::Bodies;
@@ -32,9 +32,9 @@ pub(crate) struct Journal {
     /// Whether bodies still have what they had then: nobody has been at them.
     is_known: bool,
     /// Row by row, what friction and twist give in the present substep, as a part of what contacts do.
-    pub frictions: Vec<Push>,
+    pub frictions: Vec<Part>,
     /// Row by row, what contacts give along their normals in the present substep that bounce when struck faster; empty if there are none.
-    pub rebounds: Vec<Push>,
+    pub rebounds: Vec<Part>,
     /// A body was lost.
     lost: bool,
 }
@@ -192,7 +192,7 @@ impl Journal {
         self.holds.resize(rows, Hold::default());
         self.passages.resize(rows, Passage::default());
         self.captures.resize(rows, Push::default());
-        self.frictions.resize(rows, Push::default());
+        self.frictions.resize(rows, Part::default());
         self.rotations.resize(rows, DQuat::IDENTITY);
         self.sum
     }

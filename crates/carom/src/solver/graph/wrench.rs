@@ -6,7 +6,7 @@
 
 use super::passes::GRAIN;
 use super::{Color, ContactId, Graph};
-use crate::math::DVec3;
+use crate::math::{DVec3, Vec3};
 use crate::solver::bundle::{Bundle, POINTS, field};
 use crate::solver::contact::{Frame, lever, line, pressed, vector};
 use crate::solver::kernels::bring_next;
@@ -46,8 +46,8 @@ impl Wrenches {
     }
 
     /// Impulse (N·s) of friction at each of them and, with twist, its moment about the mean centre (N·m·s); empty if nobody asked.
-    pub fn across(&self) -> impl Iterator<Item = [DVec3; 2]> {
-        self.across.iter().flatten().map(|exerts| exerts.map(wide))
+    pub fn across(&self) -> impl Iterator<Item = [Vec3; 2]> {
+        self.across.iter().flatten().map(|exerts| exerts.map(Vec3::from))
     }
 
     fn append(&mut self, mut other: Self) {
@@ -80,6 +80,12 @@ impl Wrench {
         self.share.into()
     }
 
+    /// Impulse and moment, less a part of them.
+    pub fn without(&self, [impulse, moment]: [Vec3; 2]) -> [Vec3; 2] {
+        let [all, all_moment] = self.exerts.map(Vec3::from);
+        [all - impulse, all_moment - moment]
+    }
+
     /// The impulse (N·s).
     #[inline]
     pub fn impulse(&self) -> DVec3 {
@@ -92,12 +98,20 @@ impl Wrench {
         wide(self.exerts[1])
     }
 
-    /// The angular impulses about their own `centers` of mass that `[impulse, moment]` gives to both bodies: the moment about the mean
-    /// centre, which is at a share of the way d between the centres, and what comes from there. One product `d × P` does for both.
+    /// The angular impulses about their own centres of mass that it gives to both bodies: the moment about the mean centre, which is at a
+    /// share of the way `between` the centres, and what comes from there. One product `d × P` does for both.
     #[inline]
-    pub fn turns(&self, [impulse, moment]: [DVec3; 2], [center_a, center_b]: [DVec3; 2]) -> [DVec3; 2] {
-        let lever = (center_b - center_a).cross(impulse);
-        let from_a = moment + lever * self.share();
+    pub fn turns(&self, between: DVec3) -> [DVec3; 2] {
+        let lever = between.cross(self.impulse());
+        let from_a = self.moment() + lever * self.share();
+        [-from_a, from_a - lever]
+    }
+
+    /// The same of a part of it, `[impulse, moment]`, in single precision.
+    #[inline]
+    pub fn turns_of(&self, [impulse, moment]: [Vec3; 2], between: Vec3) -> [Vec3; 2] {
+        let lever = between.cross(impulse);
+        let from_a = moment + lever * self.share;
         [-from_a, from_a - lever]
     }
 }

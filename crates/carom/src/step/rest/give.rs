@@ -88,13 +88,13 @@ impl Rest {
     fn turn(&self, bodies: &mut Bodies, work: &mut Work) {
         let mut across = work.wrenches.across();
         for wrench in work.wrenches.list() {
-            let (push, [a, b]) = ([wrench.impulse(), wrench.moment()], wrench.rows());
-            let centers = [work.centers[a], work.centers[b]];
-            let [turn_a, turn_b] = wrench.turns(push, centers);
+            let [a, b] = wrench.rows();
+            let between = work.centers[b] - work.centers[a];
+            let [turn_a, turn_b] = wrench.turns(between);
             work.turns[a] += turn_a;
             work.turns[b] += turn_b;
             if let (Some(journal), Some(across)) = (&mut bodies.journal, across.next()) {
-                journal.note_causes((wrench, across), centers, self.manners[wrench.contact.index()].bounces);
+                journal.note_causes((wrench, across), between, self.manners[wrench.contact.index()].bounces);
             }
         }
     }
