@@ -72,7 +72,7 @@ impl Part {
 }
 
 /// Adds what a contact between bodies whose centres of mass are so far apart gives to both by one of its causes (impulse, moment).
-#[inline]
+#[inline(always)]
 fn add_sides(parts: &mut [Part], wrench: &Wrench, cause: [Vec3; 2], between: Vec3) {
     let ([a, b], [turn_a, turn_b]) = (wrench.rows(), wrench.turns_of(cause, between));
     parts[a].add(-cause[0], turn_a);
