@@ -2,6 +2,7 @@
 
 use super::contacts::{Part, Push};
 use super::flights::heavy_mass;
+use super::stock::components;
 use super::{Posts, Residual, Stock};
 use crate::bodies::Bodies;
 use crate::math::{DQuat, DVec3};
@@ -230,7 +231,7 @@ impl Journal {
                 let (stock, mass) = (Stock::of(state, constants, gravity), heavy_mass(constants));
                 batch += fall.of_mass(mass);
                 sum += stock;
-                let distance = state.position.length();
+                let distance = components(state.position);
                 add_to(&mut gross, stock.sizes(distance));
                 let pull = mass.abs() * pull;
                 add_to(&mut pulls, [pull, pull * distance, 0.0]);
