@@ -29,15 +29,17 @@ type Exerts = [[f32; 3]; 2];
 #[derive(Default)]
 pub(crate) struct Wrenches {
     list: Vec<Wrench>,
-    across: Option<Vec<Exerts>>,
+    /// Whether anybody asks; nothing if not, but the room stays.
+    apart: bool,
+    across: Vec<Exerts>,
 }
 
 impl Wrenches {
     /// None yet, of all that contacts exert; where `apart`, friction and twist are known by themselves, too.
     pub fn begin(&mut self, apart: bool) {
+        self.apart = apart;
         self.list.clear();
-        self.across = apart.then(|| self.across.take().unwrap_or_default());
-        self.across.iter_mut().for_each(Vec::clear);
+        self.across.clear();
     }
 
     /// One for each contact that exerts anything.
@@ -47,20 +49,18 @@ impl Wrenches {
 
     /// Impulse (N·s) of friction at each of them and, with twist, its moment about the mean centre (N·m·s); empty if nobody asked.
     pub fn across(&self) -> impl Iterator<Item = [Vec3; 2]> {
-        self.across.iter().flatten().map(|exerts| exerts.map(Vec3::from))
+        self.across.iter().map(|exerts| exerts.map(Vec3::from))
     }
 
     fn append(&mut self, mut other: Self) {
         self.list.append(&mut other.list);
-        if let (Some(across), Some(mut more)) = (&mut self.across, other.across) {
-            across.append(&mut more);
-        }
+        self.across.append(&mut other.across);
     }
 
-    /// As many as there may be `contacts`.
-    fn with_room(&self, contacts: usize) -> Self {
-        let across = self.across.as_ref().map(|_| Vec::with_capacity(contacts));
-        Self { list: Vec::with_capacity(contacts), across }
+    /// Makes room for those of so many more contacts.
+    fn reserve(&mut self, contacts: usize) {
+        self.list.reserve(contacts);
+        self.across.reserve(if self.apart { contacts } else { 0 });
     }
 }
 
@@ -191,7 +191,7 @@ impl Kernel for Find<'_> {
         let Self { bundles, rows, found, .. } = self;
         for (index, (bundle, contacts)) in bundles.iter().zip(self.contacts.chunks(LANES)).enumerate() {
             bring_next::<L>(bundles, index, field::SWEPT);
-            let [whole, across] = sum_up::<L>(bundle, self.which, found.across.is_some());
+            let [whole, across] = sum_up::<L>(bundle, self.which, found.apart);
             for (lane, &contact) in contacts.iter().enumerate() {
                 let sides = [bundle.a[lane], bundle.b[lane]];
                 let exerts = exerted(&whole, lane);
@@ -199,8 +199,8 @@ impl Kernel for Find<'_> {
                 if does && sides.iter().any(|&row| rows[row as usize].0[WRITABLE] != 0.0) {
                     let share = bundle.get(lane, field::SHARE);
                     found.list.push(Wrench { contact: ContactId(contact), rows: sides, share, exerts });
-                    if let Some(list) = &mut found.across {
-                        list.push(exerted(&across, lane));
+                    if found.apart {
+                        found.across.push(exerted(&across, lane));
                     }
                 }
             }
@@ -224,20 +224,18 @@ fn exerted(sums: &Sums, lane: usize) -> Exerts {
 impl Graph {
     /// Finds what all contacts exert that exert anything on a body of `rows` that can be moved.
     pub fn wrenches(&self, rows: &[Row], found: &mut Wrenches) {
-        let count = self.colors.iter().map(|color| color.contacts.len()).sum();
-        found.list.reserve(count);
-        found.across.iter_mut().for_each(|across| across.reserve(count));
-        let which = Which::All;
+        found.reserve(self.colors.iter().map(|color| color.contacts.len()).sum());
+        let (which, apart) = (Which::All, found.apart);
         for Color { bundles, contacts, .. } in self.order().map(|color| &self.colors[color]) {
             if !self.pool.shares(bundles.len(), GRAIN) {
                 self.machine.run(Find { bundles, contacts, rows, found, which });
                 continue;
             }
-            let empty = &*found;
             let stretches = self.pool.ranges(bundles.len(), GRAIN, |range| {
                 let contacts = &contacts[range.start * LANES..contacts.len().min(range.end * LANES)];
                 let bundles = &bundles[range];
-                let mut found = empty.with_room(contacts.len());
+                let mut found = Wrenches { apart, ..Wrenches::default() };
+                found.reserve(contacts.len());
                 self.machine.run(Find { bundles, contacts, rows, found: &mut found, which });
                 found
             });
