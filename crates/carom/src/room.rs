@@ -5,7 +5,7 @@
 //! page, as these are written to, so that what is empty is in no memory; but a list that moves often leaves holes behind. Measured with
 //! 100,000 packed boxes, peaks of 501 MiB with a sixteenth, of 466 with twice.
 
-/// Lists that take little more room than they need.
+/// Lists that grow so that a world takes little more memory than it needs.
 pub(crate) trait Room<T> {
     /// Adds an entry at the end.
     fn put(&mut self, entry: T);

@@ -151,7 +151,8 @@ impl Seam<'_> {
                 }
                 let shared = if shares_first { a } else { b };
                 let other = if first == shared { second } else { first };
-                if self.is_far(other, &around) || !self.comes_near(other, shares_first, &places) {
+                let is_far = other != neighbor && self.is_far(other, &around);
+                if is_far || !self.comes_near(other, shares_first, &places) {
                     continue;
                 }
                 let may_touch =

@@ -84,3 +84,28 @@ impl Touched {
         &self.features[..self.count()]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::Feature;
+
+    #[test]
+    fn pairs_of_features_have_names_of_their_own() {
+        let kinds = [Feature::Vertex, Feature::Edge, Feature::Face];
+        // Of boxes and hulls, and of triangles far on in a large mesh.
+        let numbers = || (0..12).chain(1_000_000..1_000_012);
+        let features = || numbers().flat_map(move |number| kinds.map(|kind| kind(number)));
+        let mut names: Vec<u32> = features()
+            .flat_map(|feature_a| features().map(move |feature_b| (feature_a, feature_b)))
+            .map(|(feature_a, feature_b)| {
+                Features::of(&ContactPoint { feature_a, feature_b, ..ContactPoint::NONE }).0
+            })
+            .collect();
+        let count = names.len();
+        assert_eq!(count, 72 * 72);
+        names.sort_unstable();
+        names.dedup();
+        assert_eq!(names.len(), count, "names that are shared");
+    }
+}

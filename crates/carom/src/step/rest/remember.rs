@@ -4,8 +4,8 @@
 //! wins by a hair, another four of eight points are kept. What pressed goes on pressing all the same: the new
 //! points start with impulses that push and turn both bodies as the old ones did.
 
-use super::Rest;
 use super::owner::{Features, Touched};
+use super::{FEW, Rest};
 use crate::collide::Manifold;
 use crate::math::{DMat3, DVec3, any_tangent};
 use crate::solver::bundle::{POINTS, field};
@@ -21,9 +21,6 @@ const ROUNDING: f64 = 1e-6;
 
 /// Heirs that are no further apart than this (m) turn nothing.
 const NO_REACH: f64 = 1e-12;
-
-/// Most pairs have no more contacts.
-const FEW: usize = 4;
 
 /// What the contacts of a pair exerted, each with the number of the manifold that follows upon it.
 pub(super) struct Legacy<'a> {
