@@ -361,11 +361,12 @@ impl Bodies {
         Pose::new(state.position, state.rotation)
     }
 
-    /// Writes what the user reads from the row.
-    pub fn publish(&mut self, row: usize) {
+    /// Writes what the user reads from the row; returns its angular velocity, rad/s.
+    pub fn publish(&mut self, row: usize) -> DVec3 {
         let state = self.states[row];
         let angular = self.constants[row].angular_velocity(&state);
-        let Some(record) = self.slots[self.slot_of_row[row] as usize].record.as_mut() else { return };
+        let slot = &mut self.slots[self.slot_of_row[row] as usize];
+        let Some(record) = slot.record.as_mut() else { return angular };
         let center = record.mass.center;
         let offset = if center == DVec3::ZERO { center } else { state.rotation * center };
         record.state = BodyState {
@@ -375,6 +376,7 @@ impl Bodies {
             angular_velocity: angular.as_vec3(),
             asleep: record.activity == Activity::Asleep,
         };
+        angular
     }
 
     /// Gives the body of `row` another pose of its origin.

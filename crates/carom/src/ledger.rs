@@ -18,6 +18,8 @@
 //! ledger/stock.rs      what a body has
 //! ledger/posts.rs      the causes, and their sums
 //! ledger/journal.rs    what is noted while a step goes on
+//! ledger/look.rs       what all bodies have, looked up
+//! ledger/falls.rs      what gravity does
 //! ledger/flights.rs    who books what flights do: gravity, forces, damping, turning
 //! ledger/plain.rs      the same, where a body lies still
 //! ledger/contacts.rs   contacts that rest, rest capture, overlaps
@@ -26,9 +28,11 @@
 //! ```
 
 pub(crate) mod contacts;
+mod falls;
 pub(crate) mod flights;
 pub(crate) mod impacts;
 pub(crate) mod journal;
+pub(crate) mod look;
 mod plain;
 mod posts;
 mod stock;
@@ -41,6 +45,7 @@ pub use worst::Worst;
 use crate::bodies::Bodies;
 use crate::math::DVec3;
 use journal::Journal;
+use look::Look;
 use std::fmt;
 
 /// Start, end and causes of a stretch of time.
@@ -143,6 +148,7 @@ impl Ledger {
     /// Begins the books of a step, with what users have done since the last one.
     pub(crate) fn open(&mut self, bodies: &mut Bodies, gravity: DVec3) {
         let Some(mut journal) = bodies.journal.take() else { return };
+        journal.record = self.worst_artefact.as_ref().map_or(0.0, |worst| worst.amount as f32);
         let start = journal.open(bodies, gravity);
         self.last.start = if self.steps == 0 { start } else { self.last.end };
         let done = start.since(&self.last.start) - journal.posts.entered();
@@ -150,10 +156,11 @@ impl Ledger {
         bodies.journal = Some(journal);
     }
 
-    /// Ends the books of a step of `step` seconds at `time` (s).
-    pub(crate) fn close(&mut self, bodies: &mut Bodies, (step, time): (f64, f64)) {
+    /// Ends the books of a step of `step` seconds at `time` (s), after a look at what all bodies have then.
+    pub(crate) fn close(&mut self, bodies: &mut Bodies, look: Option<Look>, (step, time): (f64, f64)) {
+        let Some(look) = look else { return };
         let Some(mut journal) = bodies.journal.take() else { return };
-        let closing = journal.close(bodies, step);
+        let closing = journal.close(look, step);
         let mut books = Books { end: closing.end, posts: closing.posts, gross: closing.gross, ..self.last };
         if closing.lost {
             // Nothing is known of what has become of a body that is no longer finite.

@@ -61,10 +61,10 @@ pub(crate) fn step(world: &mut World, time: f64) {
     world.rest.push_out(&mut world.bodies, law);
     finish::quarantine(world);
     finish::sense(world);
-    finish::publish(&mut world.bodies);
+    let look = finish::publish(&mut world.bodies);
     world.report.contacts = world.rest.count_touching(&world.bodies, &world.pairs, law);
 
     world.time = start + time;
-    world.ledger.close(&mut world.bodies, (time, world.time));
+    world.ledger.close(&mut world.bodies, look, (time, world.time));
     world.report.record(impacts, start);
 }

@@ -3,7 +3,6 @@
 //! An impulse P at a place with the moment M about a body's centre does the work `P·v̄ + M·ω̄`: exactly, if v̄ and ω̄ are the means of
 //! the velocities before and after where it acts at once, and over the path where it acts evenly.
 
-use super::Residual;
 use super::flights::weight;
 use super::journal::{CAPTURE, CORRECTION, INTEGRATION, Journal, Motion, Path};
 use crate::bodies::{Bodies, WORLD_ROW};
@@ -14,7 +13,7 @@ use crate::solver::graph::Wrench;
 /// What contacts have exerted during a substep, row by row.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Exerted<'a> {
-    /// What they gave together: impulse, and angular impulse about the centre of mass.
+    /// What they gave together, with what rest capture gave: impulse, and angular impulse about the centre of mass.
     pub impulses: &'a [DVec3],
     pub turns: &'a [DVec3],
     /// Where the centres of mass were when the impulses acted, or in the mean.
@@ -37,12 +36,6 @@ impl Push {
         self.impulse.dot(motion.velocity) + self.turn.dot(motion.spin)
     }
 
-    /// What a body gets whose centre of mass is there, and which moves like this in the mean.
-    #[inline]
-    fn gives(&self, center: DVec3, motion: &Motion) -> Residual {
-        Residual { linear: self.impulse, angular: self.moment(center), energy: self.work(motion) }
-    }
-
     /// Angular momentum about the origin that a body gets whose centre of mass is there, N·m·s.
     #[inline]
     fn moment(&self, center: DVec3) -> DVec3 {
@@ -60,14 +53,15 @@ pub(crate) struct Part {
 
 impl Part {
     #[inline]
-    fn whole(&self) -> Push {
-        Push { impulse: self.impulse.as_dvec3(), turn: self.turn.as_dvec3() }
-    }
-
-    #[inline]
     fn add(&mut self, impulse: Vec3, turn: Vec3) {
         self.impulse += impulse;
         self.turn += turn;
+    }
+
+    /// The work (J) that it does on a body that moves like this in the mean.
+    #[inline]
+    fn work(&self, motion: &Motion) -> f64 {
+        self.impulse.as_dvec3().dot(motion.velocity) + self.turn.as_dvec3().dot(motion.spin)
     }
 }
 
@@ -93,14 +87,14 @@ pub(crate) fn settle(bodies: &mut Bodies, exerted: &Exerted) {
     bodies.journal = Some(journal);
 }
 
-/// Notes what rest capture gives to the body of a row in this substep: impulse, angular impulse.
+/// Books what rest capture gives to the body of a row in this substep, whose centre of mass is there in the mean: impulse, angular
+/// impulse. What work that does is told when the substep is over.
 #[inline]
-pub(crate) fn captured(bodies: &mut Bodies, row: usize, [impulse, turn]: [DVec3; 2]) {
+pub(crate) fn captured(bodies: &mut Bodies, row: usize, [impulse, turn]: [DVec3; 2], center: DVec3) {
     if let Some(journal) = bodies.journal.as_deref_mut() {
-        // What nothing pushes along keeps its velocity.
-        let impulse = if bodies.constants[row].inverse_mass > 0.0 { impulse } else { DVec3::ZERO };
+        journal.posts.fixed.add(impulse, center.cross(impulse) + turn);
         journal.holds[row].is_captured = true;
-        journal.captures[row] = Push { impulse, turn };
+        journal.captures[row] = Part { impulse: impulse.as_vec3(), turn: turn.as_vec3() };
     }
 }
 
@@ -118,39 +112,32 @@ impl Journal {
         }
     }
 
-    /// Books what contacts and rest capture have given to the body of a row.
+    /// Books what contacts and rest capture have given to the body of a row, and gravity, where it has acted along with them.
     #[inline]
     fn book_row(&mut self, bodies: &Bodies, row: usize, (push, center, time): (Push, DVec3, f64)) {
-        let friction = std::mem::take(&mut self.frictions[row]).whole();
         let hold = &mut self.holds[row];
-        let is_led = hold.path != Path::Free;
         // Whoever is held in the next substep will be told so.
-        hold.path = Path::Free;
-        let is_captured = std::mem::take(&mut hold.is_captured);
-        let is_regular = is_led && hold.is_regular;
+        let is_led = std::mem::take(&mut hold.path) != Path::Free;
         if !is_led && (row == WORLD_ROW || bodies.constants[row].is_movable()) {
             // The ground, and what sleeps: nothing moves along there, so that there is no work.
             self.posts.fixed.add(-push.impulse, -push.moment(center));
+            self.frictions[row] = Part::default();
             return;
         }
-        let led = is_led.then(|| self.passages[row].motion(time));
-        let mut motion = led.unwrap_or_default();
-        let mut got = Residual::default();
-        if is_regular {
-            got = push.gives(center, &motion);
-        }
-        if is_captured {
-            let given = self.captures[row].gives(center, &motion);
-            self.posts.fixed.add(given.linear, given.angular);
-            self.posts.loss_rest_capture -= given.energy;
-            self.tallies[row].artefacts[CAPTURE] += given.energy;
-            got += given;
-        }
-        self.tallies[row].get(got.linear, got.angular, got.energy);
-        if !is_regular {
-            motion = self.book_driven(bodies, (row, led), (push, center));
-        }
-        self.book_works(row, (push, friction), &motion);
+        let hold = *hold;
+        let led = is_led.then(|| hold.motion(time));
+        let (motion, work) = if let Some(motion) = led.filter(|_| hold.is_regular) {
+            let (mut given, work) = (push, push.work(&motion));
+            if hold.keeps_course {
+                given.impulse += self.pulls(hold.heavy_mass, (center, time));
+            }
+            self.gets(row, given.impulse, given.moment(center), work);
+            (motion, work)
+        } else {
+            let driven = self.book_driven(bodies, (row, led), (push, center));
+            (driven, push.work(&driven))
+        };
+        self.book_works(row, work, (&motion, hold.is_captured));
     }
 
     /// Books what contacts give to what is kinematic, or has an infinite mass or inertia: what it does not take goes to the account of
@@ -185,21 +172,26 @@ impl Journal {
         }
         self.posts.work_kinematic -= work - kept;
         self.posts.kinematic.angular += taken - turn;
-        self.tallies[row].get(linear, center.cross(linear) + taken, kept);
+        self.gets(row, linear, center.cross(linear) + taken, kept);
         driven
     }
 
-    /// Books the work that contacts do on the body of a row, cause by cause: of what they give together, `friction` is one part, what would
-    /// bounce another one.
+    /// Books the work (J) that contacts and rest capture do on the body of a row that moves like this in the mean, cause by cause.
     #[inline]
-    fn book_works(&mut self, row: usize, (push, friction): (Push, Push), motion: &Motion) {
-        let normal = Push { impulse: push.impulse - friction.impulse, turn: push.turn - friction.turn };
-        self.posts.loss_friction -= friction.work(motion);
-        let mut work = normal.work(motion);
+    fn book_works(&mut self, row: usize, mut work: f64, (motion, is_captured): (&Motion, bool)) {
+        let friction = std::mem::take(&mut self.frictions[row]).work(motion);
+        self.posts.loss_friction -= friction;
+        work -= friction;
+        let mut captured = 0.0;
+        if is_captured {
+            captured += self.captures[row].work(motion);
+        }
         if let Some(rebound) = self.rebounds.get(row) {
-            let captured = rebound.whole().work(motion);
+            captured += rebound.work(motion);
+        }
+        if captured != 0.0 {
             self.posts.loss_rest_capture -= captured;
-            self.tallies[row].artefacts[CAPTURE] += captured;
+            self.note_artefact(row, CAPTURE, captured);
             work -= captured;
         }
         self.posts.loss_contact -= work;
@@ -214,12 +206,11 @@ pub(crate) fn kept_to_plan(bodies: &mut Bodies, row: usize, [turn, wanted]: [DVe
     }
     let (state, constants) = (&bodies.states[row], &bodies.constants[row]);
     let spin = constants.free_spin(state.rotation, state.angular_momentum - 0.5 * turn);
-    let tally = &mut journal.tallies[row];
     journal.posts.integration += turn.dot(spin);
-    tally.get_artefact(INTEGRATION, turn.dot(spin));
+    journal.gets_by_artefact(row, INTEGRATION, turn.dot(spin));
     // Axes of infinite inertia do not take theirs.
     journal.posts.kinematic.angular += turn - wanted;
-    tally.get(DVec3::ZERO, turn - wanted, 0.0);
+    journal.gets(row, DVec3::ZERO, turn - wanted, 0.0);
 }
 
 /// Books what one contact does to angular momentum by pushing an overlap out (displacement times mass, kg·m): bodies that move have
@@ -249,12 +240,11 @@ pub(crate) fn pushed_out(bodies: &mut Bodies, row: usize, before: &RigidState) {
     let (after, constants) = (&bodies.states[row], &bodies.constants[row]);
     let [start, end] = [before, after].map(|it| constants.spin_energy(it.rotation, after.angular_momentum));
     let mut energy = end - start;
-    let tally = &mut journal.tallies[row];
     if constants.inverse_mass > 0.0 {
         let way = after.position - before.position;
         energy -= weight(constants, journal.gravity).dot(way);
-        tally.get(DVec3::ZERO, way.cross(constants.mass() * after.velocity), 0.0);
+        journal.gets(row, DVec3::ZERO, way.cross(constants.mass() * after.velocity), 0.0);
     }
     journal.posts.position_correction += energy;
-    tally.get_artefact(CORRECTION, energy);
+    journal.gets_by_artefact(row, CORRECTION, energy);
 }

@@ -8,7 +8,7 @@
 //! velocity from ω to ω' at one orientation does the work `½J·(ω + ω')`; while the body turns nothing acts, so that what its
 //! energy changes by meanwhile is the integrator's.
 
-use super::journal::{Hold, INTEGRATION, Journal, Passage, Path};
+use super::journal::{Hold, INTEGRATION, Journal, Path};
 use super::plain::{PlainFlight, is_plain};
 use crate::bodies::Bodies;
 use crate::flight::{Constants, Influence, RigidState, mean_center};
@@ -36,7 +36,8 @@ pub(crate) fn flown(bodies: &mut Bodies, row: usize, after: &RigidState, time: f
         (&bodies.states[row], &bodies.constants[row], &bodies.influences[row]);
     let Hold { path, is_plain, .. } = journal.holds[row];
     if path == Path::Steady && is_plain {
-        let flight = PlainFlight { before, after, constants, influence, time };
+        let course = bodies.courses[row];
+        let flight = PlainFlight { before, after, constants, influence, time, course };
         if flight.book(journal, row) {
             return;
         }
@@ -45,7 +46,8 @@ pub(crate) fn flown(bodies: &mut Bodies, row: usize, after: &RigidState, time: f
         return;
     }
     if path == Path::Free && only_falls(constants, influence, journal.gravity) {
-        journal.falls[row].add(mean_center(before, constants, influence, time), time);
+        let mean = mean_center(before, constants, influence, time);
+        journal.falls(row, heavy_mass(constants), (mean, time));
         let (momentum, arrival) = (before.angular_momentum, after.rotation);
         if !constants.is_isotropic() && momentum != DVec3::ZERO {
             let [start, end] = [before.rotation, arrival].map(|it| constants.spin_energy(it, momentum));
@@ -117,25 +119,24 @@ impl Flight<'_> {
     }
 
     fn book_center(&self, journal: &mut Journal, row: usize) {
-        let (posts, tally) = (&mut journal.posts, &mut journal.tallies[row]);
         let way = self.after.position - self.before.position;
         if self.path == Path::Steady {
-            journal.passages[row].way += way;
+            journal.holds[row].way += way;
         }
         if self.acts {
             let mean = mean_center(self.before, self.constants, self.influence, self.time);
-            journal.falls[row].add(mean, self.time);
+            journal.falls(row, heavy_mass(self.constants), (mean, self.time));
             if self.push != DVec3::ZERO {
                 let (impulse, work) = (self.push * self.time, self.push.dot(way));
-                posts.external.add(impulse, mean.cross(impulse));
-                posts.work_external += work;
-                tally.get(impulse, mean.cross(impulse), work);
+                journal.posts.external.add(impulse, mean.cross(impulse));
+                journal.posts.work_external += work;
+                journal.gets(row, impulse, mean.cross(impulse), work);
             }
         } else {
             // Gravity has acted before, or does not: only potential energy changes.
             let fallen = -weight(self.constants, journal.gravity).dot(way);
-            posts.integration += fallen;
-            tally.get_artefact(INTEGRATION, fallen);
+            journal.posts.integration += fallen;
+            journal.gets_by_artefact(row, INTEGRATION, fallen);
         }
         if self.constants.linear_damping > 0.0 {
             self.book_drag(journal, row, way);
@@ -156,7 +157,7 @@ impl Flight<'_> {
         let moment = self.before.position.cross(drag) - mass * damping * sector;
         journal.posts.external.add(drag, moment);
         journal.posts.loss_damping += loss;
-        journal.tallies[row].get(drag, moment, -loss);
+        journal.gets(row, drag, moment, -loss);
     }
 
     /// Whether turning changes anything, or what acts has to know how far the body turns: bodies that turn about all axes alike keep
@@ -192,24 +193,23 @@ impl Flight<'_> {
         if !constants.is_isotropic() {
             journal.turned(row, constants, energy - start);
         }
-        let (posts, tally) = (&mut journal.posts, &mut journal.tallies[row]);
         if constants.angular_damping > 0.0 {
             let loss = energy * (1.0 - left * left);
-            posts.external.angular -= momentum * (1.0 - left);
-            posts.loss_damping += loss;
-            tally.get(DVec3::ZERO, -momentum * (1.0 - left), -loss);
+            journal.posts.external.angular -= momentum * (1.0 - left);
+            journal.posts.loss_damping += loss;
+            journal.gets(row, DVec3::ZERO, -momentum * (1.0 - left), -loss);
         }
 
         let by_user = self.acts && self.torque != DVec3::ZERO;
         let turn = (first + last) * (0.25 * time);
         if self.path == Path::Steady {
-            journal.passages[row].turn += turn;
+            journal.holds[row].turn += turn;
         }
         if by_user {
             let impulse = self.torque * time;
-            posts.external.angular += impulse;
-            posts.work_external += self.torque.dot(turn);
-            tally.get(DVec3::ZERO, impulse, self.torque.dot(turn));
+            journal.posts.external.angular += impulse;
+            journal.posts.work_external += self.torque.dot(turn);
+            journal.gets(row, DVec3::ZERO, impulse, self.torque.dot(turn));
         }
     }
 }
@@ -218,13 +218,12 @@ impl Journal {
     /// Books the energy (J) that a body without symmetry has got by turning, while nothing twisted it.
     #[inline]
     fn turned(&mut self, row: usize, constants: &Constants, energy: f64) {
-        let tally = &mut self.tallies[row];
         if constants.driven_spin == DVec3::ZERO {
             self.posts.integration += energy;
-            tally.get_artefact(INTEGRATION, energy);
+            self.gets_by_artefact(row, INTEGRATION, energy);
         } else {
             self.posts.work_kinematic += energy;
-            tally.get(DVec3::ZERO, DVec3::ZERO, energy);
+            self.gets(row, DVec3::ZERO, DVec3::ZERO, energy);
         }
     }
 }
@@ -243,38 +242,37 @@ fn sector(x: f64) -> f64 {
 pub(crate) fn set_out(bodies: &mut Bodies, row: usize, before: &RigidState, (time, steady): (f64, bool)) {
     let Some(journal) = bodies.journal.as_deref_mut() else { return };
     let (after, constants) = (&bodies.states[row], &bodies.constants[row]);
-    let hold = &mut journal.holds[row];
-    hold.is_regular = constants.is_regular();
-    if !hold.is_regular {
+    let is_regular = constants.is_regular();
+    if !is_regular {
         journal.rotations[row] = before.rotation;
     }
+    journal.substep = time;
+    let hold = &mut journal.holds[row];
+    *hold = Hold { path: Path::Steady, course: bodies.courses[row], is_regular, ..Hold::default() };
     if steady {
-        hold.path = Path::Steady;
         hold.is_plain = is_plain(constants) && !bodies.forces.act_on(row);
-        journal.passages[row] = Passage::default();
+        hold.heavy_mass = heavy_mass(constants);
         return;
     }
     let way = (before.velocity + after.velocity) * (0.5 * time);
     let momentum = 0.5 * (before.angular_momentum + after.angular_momentum);
     let turn = constants.free_spin(before.rotation, momentum) * time;
-    hold.path = Path::Kicked;
-    journal.passages[row] = Passage { way, turn };
+    (hold.path, hold.way, hold.turn) = (Path::Kicked, way, turn);
 
-    let (posts, tally) = (&mut journal.posts, &mut journal.tallies[row]);
     let (mut push, torque) = bodies.forces.of(row);
     if constants.inverse_mass == 0.0 {
         push = DVec3::ZERO;
     }
     let pull = weight(constants, journal.gravity);
-    journal.falls[row].add(before.position, time);
-    posts.integration += pull.dot(way);
-    tally.get_artefact(INTEGRATION, pull.dot(way));
+    journal.falls(row, heavy_mass(constants), (before.position, time));
+    journal.posts.integration += pull.dot(way);
+    journal.gets_by_artefact(row, INTEGRATION, pull.dot(way));
     if push != DVec3::ZERO || torque != DVec3::ZERO {
         let impulse = push * time;
         let moment = before.position.cross(impulse) + torque * time;
         let work = push.dot(way) + torque.dot(turn);
-        posts.external.add(impulse, moment);
-        posts.work_external += work;
-        tally.get(impulse, moment, work);
+        journal.posts.external.add(impulse, moment);
+        journal.posts.work_external += work;
+        journal.gets(row, impulse, moment, work);
     }
 }

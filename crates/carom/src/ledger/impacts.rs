@@ -78,7 +78,7 @@ impl Journal {
             (linear, moment) = (DVec3::ZERO, turn);
         }
         self.posts.work_kinematic -= beyond;
-        self.tallies[body.row].get(linear, moment, work - beyond);
+        self.gets(body.row, linear, moment, work - beyond);
         work
     }
 }

@@ -1,5 +1,6 @@
 //! What the flights do of bodies that lie still: [`flights`](super::flights) in few words, as there are so many.
 
+use super::flights::heavy_mass;
 use super::journal::Journal;
 use crate::flight::{Constants, Influence, RigidState, mean_center};
 use crate::math::{DQuat, DVec3};
@@ -11,6 +12,8 @@ pub(super) struct PlainFlight<'a> {
     pub constants: &'a Constants,
     pub influence: &'a Influence,
     pub time: f64,
+    /// Number of the path.
+    pub course: u32,
 }
 
 /// Angle (rad) up to which a torque works along the turn from orientation to orientation: its work is off by this share at most. And up to
@@ -26,16 +29,19 @@ pub(super) fn is_plain(constants: &Constants) -> bool {
 }
 
 impl PlainFlight<'_> {
-    /// Books how long gravity acts and where, and the passage along which contacts work, if the body turns about all axes alike or but
+    /// Books how long gravity acts and where, and notes the way and the turn along which contacts work, if the body turns about all axes alike or but
     /// slightly: then that is all. Tells whether it has.
     #[inline]
     pub fn book(&self, journal: &mut Journal, row: usize) -> bool {
         let Some(turn) = self.turn() else { return false };
-        let mean = mean_center(self.before, self.constants, self.influence, self.time);
-        journal.falls[row].add(mean, self.time);
-        let passage = &mut journal.passages[row];
-        passage.way += self.after.position - self.before.position;
-        passage.turn += turn;
+        let hold = &mut journal.holds[row];
+        hold.way += self.after.position - self.before.position;
+        hold.turn += turn;
+        hold.keeps_course = self.time == journal.substep && hold.course == self.course;
+        if !hold.keeps_course {
+            let mean = mean_center(self.before, self.constants, self.influence, self.time);
+            journal.falls(row, heavy_mass(self.constants), (mean, self.time));
+        }
         true
     }
 

@@ -49,7 +49,7 @@ pub struct Posts {
     pub integration: f64,
 }
 
-/// What no cause explains; or any change of what bodies have.
+/// What no cause explains; or what bodies have, or any change of it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Residual {
     /// N·s

@@ -22,17 +22,27 @@ pub struct Stock {
 impl Stock {
     /// What the body of a row has.
     pub(crate) fn of_row(bodies: &Bodies, row: usize, gravity: DVec3) -> Self {
-        Self::of(&bodies.states[row], &bodies.constants[row], gravity)
+        let (state, constants) = (&bodies.states[row], &bodies.constants[row]);
+        Self::of(state, constants, constants.angular_velocity(state), gravity)
     }
 
-    /// What a body has in this state.
+    /// What a body has in this state, with the angular velocity (rad/s) that goes with it.
     #[inline]
-    pub(super) fn of(state: &RigidState, constants: &Constants, gravity: DVec3) -> Self {
+    pub(super) fn of(
+        state: &RigidState,
+        constants: &Constants,
+        angular_velocity: DVec3,
+        gravity: DVec3,
+    ) -> Self {
         let mut stock = Stock::default();
         if !constants.is_movable() {
             return stock;
         }
-        stock.energy.kinetic = constants.spin_energy(state.rotation, state.angular_momentum);
+        stock.energy.kinetic = if constants.driven_spin == DVec3::ZERO {
+            0.5 * state.angular_momentum.dot(angular_velocity)
+        } else {
+            constants.spin_energy(state.rotation, state.angular_momentum)
+        };
         stock.momentum.angular = state.angular_momentum;
         if constants.inverse_mass > 0.0 {
             let linear = constants.mass() * state.velocity;

@@ -39,7 +39,7 @@ impl Worst {
             return present;
         }
         // Whose it is, is asked only now: it takes a look at every body.
-        let row = largest(journal.residuals(bodies).map(|residual| residual.sizes()[kind]));
+        let row = largest(journal.residuals().map(|residual| residual.sizes()[kind]));
         Some(Self {
             post: KINDS[kind],
             step,
@@ -58,11 +58,10 @@ impl Worst {
         (step, time): (u64, f64),
         present: Option<Worst>,
     ) -> Option<Self> {
-        let Some((row, tally)) = journal.most_artefact() else { return present };
-        let (post, amount) = largest(tally.artefacts.iter().map(|it| it.abs()))?;
-        if !outweighs(amount, &present) {
+        let most = if journal.is_record { journal.most_artefact() } else { None };
+        let Some((row, post, amount)) = most.filter(|most| outweighs(most.2, &present)) else {
             return present;
-        }
+        };
         let relative = amount / (books.throughput[2] + f64::MIN_POSITIVE);
         let body = body_of(bodies, row);
         Some(Self { post: ARTEFACTS[post], step, time, body, amount, relative, weight: amount })

@@ -2,6 +2,8 @@
 
 use crate::bodies::{Bodies, WORLD_ROW};
 use crate::flight::RigidState;
+use crate::ledger::journal::Journal;
+use crate::ledger::look::Look;
 use crate::report::Overlap;
 use crate::world::World;
 
@@ -42,10 +44,15 @@ pub(crate) fn sense(world: &mut World) {
     world.report.overlaps.sort_unstable_by_key(order);
 }
 
-/// Writes what users read.
-pub(crate) fn publish(bodies: &mut Bodies) {
+/// Writes what users read; and looks at what bodies have on the way, if there is a ledger.
+pub(crate) fn publish(bodies: &mut Bodies) -> Option<Look> {
+    let mut look = bodies.journal.as_deref_mut().map(Journal::begin_look);
     for row in bodies.rows() {
-        bodies.publish(row);
+        let angular_velocity = bodies.publish(row);
+        if let Some(look) = &mut look {
+            look.at(&bodies.states[row], &bodies.constants[row], angular_velocity);
+        }
     }
     bodies.forces.clear();
+    look
 }

@@ -73,13 +73,18 @@ impl Rest {
             let (body, change) = (Held::of(bodies, work, row, (law, substep)), work.changes[row]);
             let rotation = bodies.states[row].rotation;
             let mut momentum = body.gain[1] + bodies.constants[row].turning_part(rotation, work.turns[row]);
-            if let Some(velocity) = change.captured {
-                let turn = capture_spin(bodies, row, momentum, law);
+            let capture = change.captured.map(|velocity| {
+                [velocity * bodies.constants[row].mass(), capture_spin(bodies, row, momentum, law)]
+            });
+            if let Some([_, turn]) = capture {
                 momentum += turn;
-                captured(bodies, row, [velocity * bodies.constants[row].mass(), turn]);
             }
             follow(bodies, &body, [change.velocity, momentum], span);
-            set_pace(bodies, row, span.until);
+            if let Some([impulse, turn]) = capture {
+                work.impulses[row] += impulse;
+                work.turns[row] += turn;
+                captured(bodies, row, [impulse, turn], work.centers[row]);
+            }
         }
         work.unsettled = substep;
     }
@@ -147,7 +152,8 @@ fn capture_spin(bodies: &Bodies, row: usize, change: DVec3, law: RestLaw) -> DVe
     let (state, constants) = (&bodies.states[row], &bodies.constants[row]);
     let momentum = state.angular_momentum + change;
     let spin = constants.free_spin_speed(state.rotation, momentum);
-    -captured_share(spin * bodies.grains[row], law) * momentum
+    let turn = -captured_share(spin * bodies.grains[row], law) * momentum;
+    constants.turning_part(state.rotation, turn)
 }
 
 /// Where a body's centre is in the mean while the impulses act that give it `change` (m/s).
@@ -178,5 +184,6 @@ fn follow(bodies: &mut Bodies, body: &Held, [velocity, momentum]: [DVec3; 2], sp
         bodies.plans[row] = None;
         bodies.influences[row] = Influence::default();
     }
+    set_pace(bodies, row, span.until);
     set_out(bodies, row, &before, (substep, body.steady));
 }
