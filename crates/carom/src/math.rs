@@ -7,7 +7,7 @@
 //! The engine calls neither `sin` nor `cos` nor `exp` of the standard library, since those differ between
 //! platforms: the functions here use `+ − × ÷ √` in one fixed order and give the same bits everywhere.
 
-pub use glam::{DMat3, DQuat, DVec3, Quat, Vec3};
+pub use glam::{DMat3, DQuat, DVec3, Quat, Vec3, Vec3A};
 
 /// A place and an orientation: `world = rotation · local + position`, in metres.
 #[derive(Clone, Copy, Debug, PartialEq)]

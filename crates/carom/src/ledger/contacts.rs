@@ -7,8 +7,9 @@ use super::flights::weight;
 use super::journal::{CAPTURE, CORRECTION, INTEGRATION, Journal, Motion, Path};
 use crate::bodies::{Bodies, WORLD_ROW};
 use crate::flight::RigidState;
-use crate::math::{DVec3, Vec3};
+use crate::math::{DVec3, Vec3A};
 use crate::solver::graph::Wrench;
+use std::ops::AddAssign;
 
 /// What contacts have exerted during a substep, row by row.
 #[derive(Clone, Copy, Debug)]
@@ -47,27 +48,44 @@ impl Push {
 /// as the impulses that contacts are solved for.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Part {
-    impulse: Vec3,
-    turn: Vec3,
+    impulse: Vec3A,
+    turn: Vec3A,
 }
 
 impl Part {
     #[inline]
-    fn add(&mut self, impulse: Vec3, turn: Vec3) {
+    fn add(&mut self, impulse: Vec3A, turn: Vec3A) {
         self.impulse += impulse;
         self.turn += turn;
     }
 
     /// The work (J) that it does on a body that moves like this in the mean.
     #[inline]
-    fn work(&self, motion: &Motion) -> f64 {
-        self.impulse.as_dvec3().dot(motion.velocity) + self.turn.as_dvec3().dot(motion.spin)
+    fn work(&self, velocity: Vec3A, spin: Vec3A) -> f64 {
+        (self.impulse * velocity + self.turn * spin).element_sum().into()
+    }
+}
+
+/// Work (J) that contacts do on bodies, by cause: friction and twist, rest capture, and what is left.
+#[derive(Clone, Copy, Debug, Default)]
+struct Works {
+    friction: f64,
+    capture: f64,
+    contact: f64,
+}
+
+impl AddAssign for Works {
+    #[inline]
+    fn add_assign(&mut self, other: Self) {
+        self.friction += other.friction;
+        self.capture += other.capture;
+        self.contact += other.contact;
     }
 }
 
 /// Adds what a contact between bodies whose centres of mass are so far apart gives to both by one of its causes (impulse, moment).
 #[inline(always)]
-fn add_sides(parts: &mut [Part], wrench: &Wrench, cause: [Vec3; 2], between: Vec3) {
+fn add_sides(parts: &mut [Part], wrench: &Wrench, cause: [Vec3A; 2], between: Vec3A) {
     let ([a, b], [turn_a, turn_b]) = (wrench.rows(), wrench.turns_of(cause, between));
     parts[a].add(-cause[0], turn_a);
     parts[b].add(cause[0], turn_b);
@@ -76,14 +94,19 @@ fn add_sides(parts: &mut [Part], wrench: &Wrench, cause: [Vec3; 2], between: Vec
 /// Books what contacts have exerted in the substep that is over.
 pub(crate) fn settle(bodies: &mut Bodies, exerted: &Exerted) {
     let Some(mut journal) = bodies.journal.take() else { return };
+    let mut works = Works::default();
     for row in 0..exerted.impulses.len() {
         let push = Push { impulse: exerted.impulses[row], turn: exerted.turns[row] };
-        let does = push != Push::default() || journal.frictions[row] != Part::default();
-        if journal.holds[row].path != Path::Free || does {
-            journal.book_row(bodies, row, (push, exerted.centers[row], exerted.time));
+        let is_led = journal.holds[row].path != Path::Free;
+        if is_led || push != Push::default() || journal.frictions[row] != Part::default() {
+            works += journal.book_row(bodies, row, (push, exerted.centers[row], exerted.time));
         }
+        journal.frictions[row] = Part::default();
     }
     journal.rebounds.clear();
+    journal.posts.loss_friction -= works.friction;
+    journal.posts.loss_rest_capture -= works.capture;
+    journal.posts.loss_contact -= works.contact;
     bodies.journal = Some(journal);
 }
 
@@ -94,7 +117,7 @@ pub(crate) fn captured(bodies: &mut Bodies, row: usize, [impulse, turn]: [DVec3;
     if let Some(journal) = bodies.journal.as_deref_mut() {
         journal.posts.fixed.add(impulse, center.cross(impulse) + turn);
         journal.holds[row].is_captured = true;
-        journal.captures[row] = Part { impulse: impulse.as_vec3(), turn: turn.as_vec3() };
+        journal.captures[row] = Part { impulse: impulse.as_vec3a(), turn: turn.as_vec3a() };
     }
 }
 
@@ -103,8 +126,8 @@ impl Journal {
     /// so far apart (m), while whoever gives it to them has it at hand: causes add up body by body as the whole does, so that no contact
     /// has to be gone through again.
     #[inline]
-    pub fn note_causes(&mut self, (wrench, across): (&Wrench, [Vec3; 2]), between: DVec3, bounces: bool) {
-        let between = between.as_vec3();
+    pub fn note_causes(&mut self, (wrench, across): (&Wrench, [Vec3A; 2]), between: DVec3, bounces: bool) {
+        let between = between.as_vec3a();
         add_sides(&mut self.frictions, wrench, across, between);
         if bounces {
             self.rebounds.resize(self.holds.len(), Part::default());
@@ -114,15 +137,14 @@ impl Journal {
 
     /// Books what contacts and rest capture have given to the body of a row, and gravity, where it has acted along with them.
     #[inline]
-    fn book_row(&mut self, bodies: &Bodies, row: usize, (push, center, time): (Push, DVec3, f64)) {
+    fn book_row(&mut self, bodies: &Bodies, row: usize, (push, center, time): (Push, DVec3, f64)) -> Works {
         let hold = &mut self.holds[row];
         // Whoever is held in the next substep will be told so.
         let is_led = std::mem::take(&mut hold.path) != Path::Free;
         if !is_led && (row == WORLD_ROW || bodies.constants[row].is_movable()) {
             // The ground, and what sleeps: nothing moves along there, so that there is no work.
             self.posts.fixed.add(-push.impulse, -push.moment(center));
-            self.frictions[row] = Part::default();
-            return;
+            return Works::default();
         }
         let hold = *hold;
         let led = is_led.then(|| hold.motion(time));
@@ -137,7 +159,7 @@ impl Journal {
             let driven = self.book_driven(bodies, (row, led), (push, center));
             (driven, push.work(&driven))
         };
-        self.book_works(row, work, (&motion, hold.is_captured));
+        self.works(row, work, (&motion, hold.is_captured))
     }
 
     /// Books what contacts give to what is kinematic, or has an infinite mass or inertia: what it does not take goes to the account of
@@ -176,25 +198,22 @@ impl Journal {
         driven
     }
 
-    /// Books the work (J) that contacts and rest capture do on the body of a row that moves like this in the mean, cause by cause.
+    /// What of the `work` (J) that contacts and rest capture do on the body of a row, which moves like this in the mean, each cause does.
     #[inline]
-    fn book_works(&mut self, row: usize, mut work: f64, (motion, is_captured): (&Motion, bool)) {
-        let friction = std::mem::take(&mut self.frictions[row]).work(motion);
-        self.posts.loss_friction -= friction;
-        work -= friction;
-        let mut captured = 0.0;
+    fn works(&mut self, row: usize, work: f64, (motion, is_captured): (&Motion, bool)) -> Works {
+        let (velocity, spin) = (motion.velocity.as_vec3a(), motion.spin.as_vec3a());
+        let friction = self.frictions[row].work(velocity, spin);
+        let mut capture = 0.0;
         if is_captured {
-            captured += self.captures[row].work(motion);
+            capture += self.captures[row].work(velocity, spin);
         }
         if let Some(rebound) = self.rebounds.get(row) {
-            captured += rebound.work(motion);
+            capture += rebound.work(velocity, spin);
         }
-        if captured != 0.0 {
-            self.posts.loss_rest_capture -= captured;
-            self.note_artefact(row, CAPTURE, captured);
-            work -= captured;
+        if capture != 0.0 {
+            self.note_artefact(row, CAPTURE, capture);
         }
-        self.posts.loss_contact -= work;
+        Works { friction, capture, contact: work - friction - capture }
     }
 }
 

@@ -6,7 +6,7 @@
 
 use super::passes::GRAIN;
 use super::{Color, ContactId, Graph};
-use crate::math::{DVec3, Vec3};
+use crate::math::{DVec3, Vec3A};
 use crate::solver::bundle::{Bundle, POINTS, field};
 use crate::solver::contact::{Frame, lever, line, pressed, vector};
 use crate::solver::kernels::bring_next;
@@ -31,7 +31,7 @@ pub(crate) struct Wrenches {
     list: Vec<Wrench>,
     /// Whether anybody asks; nothing if not, but the room stays.
     apart: bool,
-    across: Vec<Exerts>,
+    across: Vec<[Vec3A; 2]>,
 }
 
 impl Wrenches {
@@ -48,8 +48,8 @@ impl Wrenches {
     }
 
     /// Impulse (N·s) of friction at each of them and, with twist, its moment about the mean centre (N·m·s); empty if nobody asked.
-    pub fn across(&self) -> impl Iterator<Item = [Vec3; 2]> {
-        self.across.iter().map(|exerts| exerts.map(Vec3::from))
+    pub fn across(&self) -> &[[Vec3A; 2]] {
+        &self.across
     }
 
     fn append(&mut self, mut other: Self) {
@@ -81,8 +81,8 @@ impl Wrench {
     }
 
     /// Impulse and moment, less a part of them.
-    pub fn without(&self, [impulse, moment]: [Vec3; 2]) -> [Vec3; 2] {
-        let [all, all_moment] = self.exerts.map(Vec3::from);
+    pub fn without(&self, [impulse, moment]: [Vec3A; 2]) -> [Vec3A; 2] {
+        let [all, all_moment] = self.exerts.map(Vec3A::from);
         [all - impulse, all_moment - moment]
     }
 
@@ -109,7 +109,7 @@ impl Wrench {
 
     /// The same of a part of it, `[impulse, moment]`, in single precision.
     #[inline]
-    pub fn turns_of(&self, [impulse, moment]: [Vec3; 2], between: Vec3) -> [Vec3; 2] {
+    pub fn turns_of(&self, [impulse, moment]: [Vec3A; 2], between: Vec3A) -> [Vec3A; 2] {
         let lever = between.cross(impulse);
         let from_a = moment + lever * self.share;
         [-from_a, from_a - lever]
@@ -200,7 +200,7 @@ impl Kernel for Find<'_> {
                     let share = bundle.get(lane, field::SHARE);
                     found.list.push(Wrench { contact: ContactId(contact), rows: sides, share, exerts });
                     if found.apart {
-                        found.across.push(exerted(&across, lane));
+                        found.across.push(exerted(&across, lane).map(Vec3A::from));
                     }
                 }
             }

@@ -91,14 +91,14 @@ impl Rest {
 
     /// Adds up how the contacts turn each body.
     fn turn(&self, bodies: &mut Bodies, work: &mut Work) {
-        let mut across = work.wrenches.across();
+        let mut across = work.wrenches.across().iter();
         for wrench in work.wrenches.list() {
             let [a, b] = wrench.rows();
             let between = work.centers[b] - work.centers[a];
             let [turn_a, turn_b] = wrench.turns(between);
             work.turns[a] += turn_a;
             work.turns[b] += turn_b;
-            if let (Some(journal), Some(across)) = (&mut bodies.journal, across.next()) {
+            if let (Some(journal), Some(&across)) = (&mut bodies.journal, across.next()) {
                 journal.note_causes((wrench, across), between, self.manners[wrench.contact.index()].bounces);
             }
         }
