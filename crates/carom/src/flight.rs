@@ -281,6 +281,7 @@ impl Constants {
     }
 
     /// What of an angular impulse (world axes) turns the body: nothing about axes of infinite inertia.
+    #[inline]
     pub fn turning_part(&self, rotation: DQuat, impulse: DVec3) -> DVec3 {
         let finite = self.rotor.inverse_moments.cmpgt(DVec3::ZERO);
         if finite.all() {

@@ -156,20 +156,20 @@ impl Journal {
             self.gets(row, given.impulse, given.moment(center), work);
             (motion, work)
         } else {
-            let driven = self.book_driven(bodies, (row, led), (push, center));
-            (driven, push.work(&driven))
+            self.book_driven(bodies, (row, led), (push, center))
         };
         self.works(row, work, (&motion, hold.is_captured))
     }
 
     /// Books what contacts give to what is kinematic, or has an infinite mass or inertia: what it does not take goes to the account of
-    /// what is driven. `led` is how the body moves on a path that contacts have set it on; returns how it moves with what drives it.
+    /// what is driven. `led` is how the body moves on a path that contacts have set it on; returns how it moves with what drives it, and the
+    /// work that this is, J.
     fn book_driven(
         &mut self,
         bodies: &Bodies,
         (row, led): (usize, Option<Motion>),
         (push, center): (Push, DVec3),
-    ) -> Motion {
+    ) -> (Motion, f64) {
         let Push { impulse, turn } = push;
         let (state, constants) = (&bodies.states[row], &bodies.constants[row]);
         let rotation = if led.is_some() { self.rotations[row] } else { state.rotation };
@@ -182,7 +182,7 @@ impl Journal {
         let Some(motion) = led else {
             self.posts.kinematic.add(-impulse, -push.moment(center));
             self.posts.work_kinematic -= work;
-            return driven;
+            return (driven, work);
         };
         let taken = constants.turning_part(rotation, turn);
         let (mut linear, mut kept) = (impulse, taken.dot(motion.spin));
@@ -195,7 +195,7 @@ impl Journal {
         self.posts.work_kinematic -= work - kept;
         self.posts.kinematic.angular += taken - turn;
         self.gets(row, linear, center.cross(linear) + taken, kept);
-        driven
+        (driven, work)
     }
 
     /// What of the `work` (J) that contacts and rest capture do on the body of a row, which moves like this in the mean, each cause does.

@@ -29,8 +29,8 @@ pub(super) fn is_plain(constants: &Constants) -> bool {
 }
 
 impl PlainFlight<'_> {
-    /// Books how long gravity acts and where, and notes the way and the turn along which contacts work, if the body turns about all axes alike or but
-    /// slightly: then that is all. Tells whether it has.
+    /// Notes the way and the turn along which contacts work, if the body turns about all axes alike or but slightly; and books gravity, unless
+    /// it has acted where contacts have, who book it then. That is all; tells whether it was.
     #[inline]
     pub fn book(&self, journal: &mut Journal, row: usize) -> bool {
         let Some(turn) = self.turn() else { return false };

@@ -153,6 +153,7 @@ impl Rest {
 
 /// Velocity (m/s) and angular momentum (N·m·s) that gravity and the user's forces give to a body in a substep. Told anew whenever it is
 /// asked for: that takes no longer than to keep it for each body.
+#[inline(always)]
 pub(super) fn gain(bodies: &Bodies, row: usize, (law, substep): (RestLaw, f64)) -> [DVec3; 2] {
     let free =
         if bodies.is_asleep(row) { Influence::default() } else { free_influence(bodies, row, law.gravity) };
