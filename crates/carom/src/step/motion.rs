@@ -52,22 +52,26 @@ pub(crate) fn rouse(bodies: &mut Bodies, row: usize, law: RestLaw, time: f64) {
 
 /// Advances one body along its flight to `time` within the step.
 pub(crate) fn advance(bodies: &mut Bodies, row: usize, time: f64) {
-    if !is_behind(bodies, row, time) {
-        return;
-    }
-    let drifts = bodies.constants[row].drifts(&bodies.states[row], &bodies.influences[row]);
-    if drifts && bodies.plans[row].is_none() && !minds_drifting(bodies, row) {
-        bodies.ways[row] = bodies.way(row, time);
-        let flown = time - bodies.clocks[row];
-        let state = &mut bodies.states[row];
-        state.position += state.velocity * flown;
-        bodies.clocks[row] = time;
-    } else {
+    if is_behind(bodies, row, time) && !drift(bodies, row, time) {
         arrive(bodies, row, &state_at(bodies, row, time), time);
     }
 }
 
-/// The same for many, shared out among the threads of `pool`.
+/// Advances a body that is behind if it does nothing but go straight on; else false, and it stays where it is.
+fn drift(bodies: &mut Bodies, row: usize, time: f64) -> bool {
+    let drifts = bodies.constants[row].drifts(&bodies.states[row], &bodies.influences[row]);
+    if !drifts || bodies.plans[row].is_some() || minds_drifting(bodies, row) {
+        return false;
+    }
+    bodies.ways[row] = bodies.way(row, time);
+    let flown = time - bodies.clocks[row];
+    let state = &mut bodies.states[row];
+    state.position += state.velocity * flown;
+    bodies.clocks[row] = time;
+    true
+}
+
+/// The same for many; those that take some computing are shared out among the threads of `pool`.
 pub(crate) fn advance_all(
     bodies: &mut Bodies,
     rows: impl ExactSizeIterator<Item = usize>,
@@ -78,13 +82,11 @@ pub(crate) fn advance_all(
     if !pool.shares(rows.len(), FLIGHTS) {
         return rows.for_each(|row| advance(bodies, row, time));
     }
-    let rows: Vec<usize> = rows.collect();
-    let flown = |&row: &usize| is_behind(bodies, row, time).then(|| state_at(bodies, row, time));
-    let states = pool.map(&rows, FLIGHTS, flown);
+    let rows: Vec<usize> =
+        rows.filter(|&row| is_behind(bodies, row, time) && !drift(bodies, row, time)).collect();
+    let states = pool.map(&rows, FLIGHTS, |&row| state_at(bodies, row, time));
     for (row, state) in rows.into_iter().zip(states) {
-        if let Some(state) = state {
-            arrive(bodies, row, &state, time);
-        }
+        arrive(bodies, row, &state, time);
     }
 }
 
